@@ -1,0 +1,79 @@
+//! The triangle mesh that readers produce and writers consume: flat arrays, nothing derived.
+//!
+//! Coordinates are stored as `f32` about a local origin kept in `f64`. A file whose coordinates are all exact in `f32`
+//! gets the origin zero and loses nothing; any other file gets the centre of its bounding box as origin, and
+//! [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can include it.
+
+/// Triangles over shared vertices, with attributes that belong to vertices.
+///
+/// Every index in `triangles` is below `positions.len()`; every position is finite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleMesh {
+    /// Added to every position to give file coordinates; zero where `f32` holds the file's coordinates exactly.
+    pub origin: [f64; 3],
+    /// Vertex positions relative to `origin`, in mesh units.
+    pub positions: Vec<[f32; 3]>,
+    /// Three vertex indices per triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Per-vertex attributes, each of length `positions.len()`.
+    pub attributes: Vec<Attribute>,
+    /// Largest distance, in mesh units, between a vertex as the file gave it and as it is stored here.
+    pub rounding: f64,
+}
+
+/// A named per-vertex attribute, kept byte for byte in the type the file gave it.
+///
+/// The conventional names are `normal` (3 components), `color` (3 or 4) and `texcoord` (2); anything else keeps
+/// the name it had in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Attribute {
+    /// Name of the attribute.
+    pub name: String,
+    /// Type of one component.
+    pub scalar: ScalarType,
+    /// Components per vertex, at least 1.
+    pub n_components: u32,
+    /// Little-endian values, `n_vertices * n_components * scalar.size_bytes()` bytes.
+    pub bytes: Vec<u8>,
+}
+
+impl Attribute {
+    /// Bytes that one vertex takes.
+    pub fn stride_bytes(&self) -> usize {
+        self.n_components as usize * self.scalar.size_bytes()
+    }
+}
+
+/// Type of an attribute's component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ScalarType {
+    /// Signed 8-bit integer.
+    I8,
+    /// Unsigned 8-bit integer.
+    U8,
+    /// Signed 16-bit integer.
+    I16,
+    /// Unsigned 16-bit integer.
+    U16,
+    /// Signed 32-bit integer.
+    I32,
+    /// Unsigned 32-bit integer.
+    U32,
+    /// 32-bit float.
+    F32,
+    /// 64-bit float.
+    F64,
+}
+
+impl ScalarType {
+    /// Bytes that one value takes.
+    pub fn size_bytes(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! What a decimator leaves behind: every triangle that ever lived, with the steps of its birth and death.
+//!
+//! A *step* is one time stamp of a decimator, here the removal of one vertex. Step 0 is the input. A simplex is alive
+//! at step `s` when `birth <= s < death`; the simplices with `death == s` are exactly those that the ones with
+//! `birth == s` replaced. Nothing here knows which decimator ran.
+
+/// Death of whatever is still alive when the decimator stops.
+pub const NEVER: u32 = u32::MAX;
+
+/// Lifetimes of all simplices and vertices of one decimation, in steps.
+///
+/// Shapes: `simplices`, `birth` and `death` run in parallel, the input's simplices first and in the input's order;
+/// `vertex_death[v]` belongs to vertex `v` of the input; `errors.len() == n_steps + 1`.
+/// Invariants: `birth < death`; a simplex uses only vertices that die no earlier than it does; `errors` never falls.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History<const CORNERS: usize = 3> {
+    /// Vertex indices of every simplex that ever lived.
+    pub simplices: Vec<[u32; CORNERS]>,
+    /// Step at which each simplex appears.
+    pub birth: Vec<u32>,
+    /// Step at which each simplex is gone, or [`NEVER`].
+    pub death: Vec<u32>,
+    /// Step at which each vertex is gone, or [`NEVER`].
+    pub vertex_death: Vec<u32>,
+    /// Error of the mesh at each step, in mesh units; `errors[0]` is that of the input itself.
+    pub errors: Vec<f64>,
+}

@@ -1,0 +1,6 @@
+//! One mesh in, every level of detail out, each with an error that is stated.
+
+pub mod history;
+
+pub use history::History;
+pub use nephrite_formats::{Attribute, ScalarType, TriangleMesh};

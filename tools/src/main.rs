@@ -1,0 +1,3 @@
+//! The program `nephrite`.
+
+fn main() {}
