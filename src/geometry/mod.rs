@@ -1,0 +1,4 @@
+//! Vectors and exact distances between points, segments and triangles, in `f64`.
+
+pub mod distance;
+pub mod vector;
