@@ -1,5 +1,6 @@
 //! One mesh in, every level of detail out, each with an error that is stated.
 
+pub mod generate;
 pub mod geometry;
 pub mod history;
 

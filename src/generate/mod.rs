@@ -1,0 +1,40 @@
+//! Surfaces made from formulas: what demonstrations, tests and benches need without a file.
+//!
+//! Every generator is deterministic, computes in `f64` and rounds each coordinate once to `f32`; the origin is zero and
+//! there are no attributes. Surfaces that enclose a volume are closed to the last edge and oriented outwards. A count
+//! outside the range that a generator states is moved to the nearer end of it, so that none of them can fail.
+
+mod cosine;
+mod cuboid;
+mod cylinder;
+mod lattice;
+mod moebius;
+mod plate;
+mod ribbon;
+mod sphere;
+mod terrain;
+#[cfg(test)]
+mod topology;
+mod torus;
+
+pub use cosine::cosine;
+pub use cuboid::cuboid;
+pub use cylinder::cylinder;
+pub use moebius::moebius;
+pub use plate::plate;
+pub use ribbon::ribbon;
+pub use sphere::{sphere, sphere_frequency};
+pub use terrain::terrain;
+pub use torus::torus;
+
+use nephrite_formats::TriangleMesh;
+
+/// Largest count along one direction that any generator accepts: its square still fits a `u32` index.
+pub const MAX_COUNT: u32 = 20_000;
+
+/// The mesh of these positions, each coordinate rounded to the nearest `f32`.
+fn mesh_of(positions: &[[f64; 3]], triangles: Vec<[u32; 3]>) -> TriangleMesh {
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the point")]
+    let positions = positions.iter().map(|point| point.map(|coordinate| coordinate as f32)).collect();
+    TriangleMesh { positions, triangles, ..TriangleMesh::default() }
+}
