@@ -1,0 +1,254 @@
+//! What can be wrong with a mesh file or with a mesh to be written, with the place, what was expected and what was found.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use crate::MeshFormat;
+
+/// Why a mesh could not be read or written.
+///
+/// Messages are one clause and name the place inside the file; [`MeshError::InFile`] puts the file's name before it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// An error together with the file it is about.
+    #[error("{}: {error}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it; never itself an `InFile`.
+        error: Box<MeshError>,
+    },
+    /// The system refused to read or write.
+    #[error("{0}")]
+    Io(#[from] io::Error),
+    /// Neither the contents nor the extension tell a mesh format.
+    #[error("no known mesh format (PLY, OBJ, STL, OFF, glTF and GLB are read)")]
+    UnknownFormat,
+    /// A mesh was to be written to a file whose extension names no format that is written.
+    #[error("no mesh format is written under the extension {extension:?} (ply, obj, stl, off and glb are)")]
+    UnknownExtension {
+        /// The extension found, empty where there is none.
+        extension: String,
+    },
+    /// The file holds no face with three corners or more; point clouds end here.
+    #[error("no faces ({n_vertices} vertices)")]
+    NoFaces {
+        /// Vertices in the file.
+        n_vertices: usize,
+    },
+    /// A binary file ends inside something it announced.
+    #[error("{what} at {place} is cut short: {expected} bytes expected, {found} found")]
+    Truncated {
+        /// Where the unfinished part begins.
+        place: Place,
+        /// What is unfinished.
+        what: &'static str,
+        /// Bytes that it takes.
+        expected: u64,
+        /// Bytes that are there.
+        found: u64,
+    },
+    /// A text file ends before everything it announced has been read.
+    #[error("the file ends at {place} after {found} of {expected} {what}")]
+    EndsEarly {
+        /// The last line.
+        place: Place,
+        /// What is being counted, in the plural.
+        what: &'static str,
+        /// How many were announced.
+        expected: u64,
+        /// How many are complete.
+        found: u64,
+    },
+    /// Something else stands where the format wants a certain thing.
+    #[error("{place}: expected {expected}, found {found}")]
+    Unexpected {
+        /// Where it stands.
+        place: Place,
+        /// What the format wants there.
+        expected: &'static str,
+        /// What is there, shortened and escaped.
+        found: String,
+    },
+    /// Something that the format requires is absent.
+    #[error("{place} has no {what}")]
+    Missing {
+        /// What it should have been part of.
+        place: Place,
+        /// What is absent.
+        what: &'static str,
+    },
+    /// A count that the bytes present, or the type of an index, cannot hold.
+    #[error("{place}: {count} {what} announced, there can be at most {limit}")]
+    CountTooLarge {
+        /// Where the count stands.
+        place: Place,
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// The count.
+        count: u64,
+        /// The largest that the bytes or the index type allow.
+        limit: u64,
+    },
+    /// An index that points at nothing, as the file writes it (OBJ counts from 1, backwards from -1).
+    #[error("{place}: {what} index {index} is out of range ({count} there)")]
+    IndexOutOfRange {
+        /// Where the index stands.
+        place: Place,
+        /// What it should point at.
+        what: &'static str,
+        /// The index.
+        index: i64,
+        /// How many there are to point at.
+        count: u64,
+    },
+    /// A coordinate that is NaN or infinite.
+    #[error("{place}: coordinate {value} is not finite")]
+    NonFinite {
+        /// Where it stands.
+        place: Place,
+        /// Its value.
+        value: f64,
+    },
+    /// A coordinate beyond the range of `f32`.
+    #[error("{place}: coordinate {value:e} is beyond the range of single precision")]
+    CoordinateTooLarge {
+        /// Where it stands.
+        place: Place,
+        /// Its value.
+        value: f64,
+    },
+    /// A known feature of the format that is not read.
+    #[error("{place}: {feature} is not supported")]
+    Unsupported {
+        /// Where it stands.
+        place: Place,
+        /// What it is.
+        feature: String,
+    },
+    /// JSON that is malformed or of the wrong shape.
+    #[error("JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A reference to another file that is refused or leads nowhere.
+    #[error("{place}: reference {uri:?} {problem}")]
+    Reference {
+        /// What refers.
+        place: Place,
+        /// The reference, shortened.
+        uri: String,
+        /// Why it is not followed.
+        problem: String,
+    },
+    /// A mesh to be written contradicts itself.
+    #[error("the mesh contradicts itself: {what} of {place} is {found}, expected {expected}")]
+    InconsistentMesh {
+        /// The array at fault.
+        place: Place,
+        /// The property at fault.
+        what: &'static str,
+        /// Its value.
+        found: u64,
+        /// The value or the limit that would be right.
+        expected: u64,
+    },
+    /// A mesh larger than the format can describe.
+    #[error("{count} {what} do not fit in {format}, which holds at most {limit}")]
+    TooLargeForFormat {
+        /// The format.
+        format: MeshFormat,
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// How many there are.
+        count: u64,
+        /// How many the format holds.
+        limit: u64,
+    },
+}
+
+impl MeshError {
+    /// The same error with the file's name before it.
+    #[must_use]
+    pub fn in_file(self, path: impl Into<PathBuf>) -> Self {
+        match self {
+            Self::InFile { .. } => self,
+            error => Self::InFile { path: path.into(), error: Box::new(error) },
+        }
+    }
+
+    /// The error itself, without the name of the file around it.
+    pub fn root(&self) -> &Self {
+        match self {
+            Self::InFile { error, .. } => error,
+            error => error,
+        }
+    }
+}
+
+/// A place inside a file or a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line of a text file, from 1.
+    Line(u64),
+    /// An offset into a binary file, from 0.
+    Byte(u64),
+    /// One of a numbered kind of things, from 0: vertex 3, accessor 0.
+    Item(&'static str, u64),
+    /// A named part of the file: the vertex element, the header.
+    Part(&'static str),
+}
+
+impl Place {
+    /// The item number `index` of a kind.
+    pub(crate) fn item(kind: &'static str, index: usize) -> Self {
+        Self::Item(kind, index as u64)
+    }
+
+    /// A byte offset.
+    pub(crate) fn byte(offset: usize) -> Self {
+        Self::Byte(offset as u64)
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File => write!(f, "the file"),
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(offset) => write!(f, "byte {offset}"),
+            Self::Item(kind, index) => write!(f, "{kind} {index}"),
+            Self::Part(name) => write!(f, "the {name}"),
+        }
+    }
+}
+
+/// Bytes from a file as they can be shown in a one-line message: escaped, quoted and at most 40 bytes of them.
+pub(crate) fn excerpt(bytes: &[u8]) -> String {
+    const SHOWN_BYTES: usize = 40;
+    let shown = bytes.get(..SHOWN_BYTES).unwrap_or(bytes).escape_ascii();
+    if bytes.len() > SHOWN_BYTES { format!("\"{shown}...\"") } else { format!("\"{shown}\"") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_name_file_and_place() {
+        let error = MeshError::IndexOutOfRange { place: Place::Line(7), what: "vertex", index: -9, count: 8 }
+            .in_file("a/b.obj");
+        assert_eq!(error.to_string(), "a/b.obj: line 7: vertex index -9 is out of range (8 there)");
+        assert!(matches!(error.root(), MeshError::IndexOutOfRange { .. }));
+        assert_eq!(error.in_file("other").to_string().matches(": line 7").count(), 1);
+    }
+
+    #[test]
+    fn excerpts_are_short_and_printable() {
+        assert_eq!(excerpt(b"1.#IND\n"), "\"1.#IND\\n\"");
+        assert_eq!(excerpt(&[b'x'; 1000]).len(), 40 + 3 + 2);
+    }
+}

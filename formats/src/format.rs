@@ -1,0 +1,194 @@
+//! Which format a file is in, and the way to its reader or writer.
+//!
+//! Contents are believed before extensions: a PLY file named `.obj` is read as PLY, and the report says so.
+
+use std::fmt;
+use std::io::Write;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::publish::publish;
+use crate::text::{Scanner, Style};
+use crate::{MeshError, ReadReport, TriangleMesh, Warning, obj, ply};
+
+/// A mesh file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum MeshFormat {
+    /// Polygon file format, text or binary.
+    Ply,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stereolithography, text or binary.
+    Stl,
+    /// Geomview's object file format, text.
+    Off,
+    /// glTF 2.0 with its JSON in a text file.
+    Gltf,
+    /// glTF 2.0 in one binary file.
+    Glb,
+}
+
+impl MeshFormat {
+    /// All formats.
+    pub const ALL: [Self; 6] = [Self::Ply, Self::Obj, Self::Stl, Self::Off, Self::Gltf, Self::Glb];
+
+    /// The file extension, in lower case and without the dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Ply => "ply",
+            Self::Obj => "obj",
+            Self::Stl => "stl",
+            Self::Off => "off",
+            Self::Gltf => "gltf",
+            Self::Glb => "glb",
+        }
+    }
+
+    /// The format that a path's extension names, whatever its case.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        Self::ALL.into_iter().find(|format| format.extension().eq_ignore_ascii_case(extension))
+    }
+
+    /// The format of a file's contents, with the format that its extension names where the contents leave it open.
+    ///
+    /// Looks at no more than the beginning and the length.
+    pub fn detect(bytes: &[u8], extension: Option<Self>) -> Option<Self> {
+        let is_sized_stl = stl_length(bytes) == Some(bytes.len() as u64);
+        if is_sized_stl && extension == Some(Self::Stl) {
+            return extension;
+        }
+        let magic = if bytes.starts_with(b"glTF") {
+            Some(Self::Glb)
+        } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+            Some(Self::Ply)
+        } else {
+            first_word_format(bytes)
+        };
+        magic.or(extension).or(is_sized_stl.then_some(Self::Stl)).or_else(|| guess_text(bytes))
+    }
+}
+
+impl fmt::Display for MeshFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Ply => "PLY",
+            Self::Obj => "OBJ",
+            Self::Stl => "STL",
+            Self::Off => "OFF",
+            Self::Gltf => "glTF",
+            Self::Glb => "GLB",
+        })
+    }
+}
+
+/// Reads a mesh file of any known format.
+///
+/// Costs one read of the file and a few passes over its bytes; memory stays within a constant times its size.
+///
+/// # Errors
+///
+/// [`MeshError::InFile`] with the file's name and the error inside.
+pub fn read_mesh(path: impl AsRef<Path>) -> Result<(TriangleMesh, ReadReport), MeshError> {
+    let path = path.as_ref();
+    read_file(path).map_err(|error| error.in_file(path))
+}
+
+fn read_file(path: &Path) -> Result<(TriangleMesh, ReadReport), MeshError> {
+    let bytes = std::fs::read(path)?;
+    let extension = MeshFormat::from_path(path);
+    let format = MeshFormat::detect(&bytes, extension).ok_or(MeshError::UnknownFormat)?;
+    let (mesh, mut report) = read_mesh_bytes(&bytes, format)?;
+    if let Some(extension) = extension.filter(|&extension| extension != format) {
+        report.warnings.push(Warning::ExtensionDisagrees { extension, format });
+    }
+    Ok((mesh, report))
+}
+
+/// Reads a mesh from the bytes of a file in a known format.
+///
+/// # Errors
+///
+/// Any [`MeshError`] about contents; also for glTF that refers to other files, as there is no folder to look in.
+pub fn read_mesh_bytes(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, ReadReport), MeshError> {
+    match format {
+        MeshFormat::Ply => ply::read(bytes),
+        MeshFormat::Obj => obj::read(bytes),
+        _ => Err(MeshError::UnknownFormat),
+    }
+}
+
+/// Writes a mesh in the format that the path's extension names (`ply`, `obj`, `stl`, `off` or `glb`).
+///
+/// The file appears whole or not at all.
+///
+/// # Errors
+///
+/// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`], [`MeshError::InconsistentMesh`],
+/// [`MeshError::TooLargeForFormat`] or [`MeshError::Io`].
+pub fn write_mesh(path: impl AsRef<Path>, mesh: &TriangleMesh) -> Result<(), MeshError> {
+    let path = path.as_ref();
+    write_file(path, mesh).map_err(|error| error.in_file(path))
+}
+
+fn write_file(path: &Path, mesh: &TriangleMesh) -> Result<(), MeshError> {
+    let Some(format) = MeshFormat::from_path(path).filter(|&format| format != MeshFormat::Gltf) else {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+        return Err(MeshError::UnknownExtension { extension });
+    };
+    publish(path, |out| write_mesh_to(out, mesh, format))
+}
+
+/// Writes a mesh in a format to any writer, which should be buffered.
+///
+/// # Errors
+///
+/// As [`write_mesh`], without the file's name.
+pub fn write_mesh_to(out: &mut dyn Write, mesh: &TriangleMesh, format: MeshFormat) -> Result<(), MeshError> {
+    mesh.check()?;
+    match format {
+        MeshFormat::Ply => ply::write(mesh, out),
+        MeshFormat::Obj => obj::write(mesh, out),
+        _ => Err(MeshError::UnknownExtension { extension: format.extension().into() }),
+    }
+}
+
+/// The length that a binary STL file of the triangle count in these bytes would have.
+fn stl_length(bytes: &[u8]) -> Option<u64> {
+    let count = u32::from_le_bytes(*bytes.get(80..)?.first_chunk()?);
+    Some(84 + 50 * u64::from(count))
+}
+
+/// The format whose first word, after comments, stands at the beginning.
+fn first_word_format(bytes: &[u8]) -> Option<MeshFormat> {
+    let word =
+        Scanner::new(beginning(bytes), Style { hash_comments: true, continued_lines: false }).word()?;
+    if word.starts_with(b"{") {
+        return Some(MeshFormat::Gltf);
+    }
+    let prefixes = ["", "C", "N", "CN", "ST", "STC", "STN", "STCN", "4", "n"];
+    let word = word.strip_suffix(b"OFF")?;
+    prefixes.iter().any(|prefix| word == prefix.as_bytes()).then_some(MeshFormat::Off)
+}
+
+/// STL or OBJ by the words that text in them begins with.
+fn guess_text(bytes: &[u8]) -> Option<MeshFormat> {
+    let word =
+        Scanner::new(beginning(bytes), Style { hash_comments: true, continued_lines: false }).word()?;
+    match word {
+        b"solid" => Some(MeshFormat::Stl),
+        b"v" | b"vt" | b"vn" | b"vp" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" => {
+            Some(MeshFormat::Obj)
+        }
+        _ => None,
+    }
+}
+
+/// As much of a file as is searched for its first word.
+fn beginning(bytes: &[u8]) -> &[u8] {
+    const SEARCHED_BYTES: usize = 64 * 1024;
+    bytes.get(..SEARCHED_BYTES).unwrap_or(bytes)
+}

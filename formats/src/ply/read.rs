@@ -1,0 +1,271 @@
+//! The elements of a PLY file, one after another, made into a mesh.
+
+use super::binary::Binary;
+use super::header::{Element, Encoding, Header, PropertyKind};
+use super::text::{Layout, Text};
+use crate::coordinates::Coordinates;
+use crate::error::{MeshError, Place};
+use crate::faces::Faces;
+use crate::{Attribute, MeshFormat, ReadReport, TriangleMesh, Warning};
+
+/// Reads a PLY file.
+///
+/// # Errors
+///
+/// Any [`MeshError`] about contents.
+pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError> {
+    let header = Header::parse(bytes)?;
+    match header.encoding {
+        Encoding::Text => {
+            let by_words = read_elements(&header, Text::new(bytes, &header, Layout::Words));
+            by_words.or_else(|error| {
+                let by_lines = read_elements(&header, Text::new(bytes, &header, Layout::Lines));
+                by_lines.map_err(|_| error)
+            })
+        }
+        encoding => read_elements(&header, Binary::new(bytes, header.data_start, encoding)),
+    }
+}
+
+/// The values after a header, as text or as bytes; elements are taken from it in the header's order.
+pub(crate) trait Values {
+    /// Positions and attributes from the vertex element.
+    fn vertices(
+        &mut self,
+        element: &Element,
+        report: &mut ReadReport,
+    ) -> Result<(Coordinates, Vec<Attribute>), MeshError>;
+
+    /// Calls `visit` with the place and the values of the list property number `list` of every record.
+    fn lists(&mut self, element: &Element, list: usize, visit: &mut Visit<'_>) -> Result<(), MeshError>;
+
+    /// As `lists`, for faces: adds them to `faces`, every index below `n_vertices`.
+    fn faces(
+        &mut self,
+        element: &Element,
+        list: usize,
+        n_vertices: u32,
+        faces: &mut Faces,
+    ) -> Result<(), MeshError> {
+        let mut corners = Vec::new();
+        self.lists(element, list, &mut |place, indices| {
+            corners.clear();
+            for &index in indices {
+                corners.push(check_index(index, n_vertices, place)?);
+            }
+            faces.push(&corners);
+            Ok(())
+        })
+    }
+
+    /// Passes over an element.
+    fn skip(&mut self, element: &Element) -> Result<(), MeshError>;
+
+    /// Lines of which the rest was passed over.
+    fn n_lines_cut(&self) -> usize {
+        0
+    }
+
+    /// Bytes after the last element.
+    fn n_trailing_bytes(&mut self) -> usize;
+}
+
+/// What is called with each list.
+pub(crate) type Visit<'a> = dyn FnMut(Place, &[i64]) -> Result<(), MeshError> + 'a;
+
+fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMesh, ReadReport), MeshError> {
+    let mut report = ReadReport::new(MeshFormat::Ply);
+    let n_vertices = n_vertices(header)?;
+    let mut vertices = None;
+    let mut faces = Faces::default();
+    for element in &header.elements {
+        match element.name.as_str() {
+            "vertex" if vertices.is_none() => vertices = Some(values.vertices(element, &mut report)?),
+            "face" if element.count > 0 => {
+                let list = index_list(element, "face element")?;
+                note_face_data(element, list, &mut report);
+                values.faces(element, list, n_vertices, &mut faces)?;
+            }
+            "tristrips" if element.count > 0 => {
+                let list = index_list(element, "tristrips element")?;
+                values.lists(element, list, &mut |place, indices| {
+                    add_strips(place, indices, n_vertices, &mut faces)
+                })?;
+            }
+            _ => {
+                report.n_ignored_elements = report
+                    .n_ignored_elements
+                    .saturating_add(usize::try_from(element.count).unwrap_or(usize::MAX));
+                values.skip(element)?;
+            }
+        }
+    }
+    let n_lines = values.n_lines_cut();
+    if n_lines > 0 {
+        report.warnings.push(Warning::LineRestIgnored { n_lines });
+    }
+    let n_bytes = values.n_trailing_bytes() as u64;
+    if n_bytes > 0 {
+        report.warnings.push(Warning::TrailingBytes { n_bytes });
+    }
+    let (Coordinates { origin, positions, rounding }, attributes) =
+        vertices.ok_or(MeshError::Missing { place: Place::Part("header"), what: "vertex element" })?;
+    let triangles = faces.into_triangles(&positions, &mut report);
+    if triangles.is_empty() {
+        return Err(MeshError::NoFaces { n_vertices: positions.len() });
+    }
+    Ok((TriangleMesh { origin, positions, triangles, attributes, rounding }, report))
+}
+
+/// Number of vertices that the header announces, known before any face is read.
+fn n_vertices(header: &Header) -> Result<u32, MeshError> {
+    let vertex = header.elements.iter().find(|element| element.name == "vertex");
+    let count =
+        vertex.ok_or(MeshError::Missing { place: Place::Part("header"), what: "vertex element" })?.count;
+    let limit = u64::from(u32::MAX);
+    let too_large = MeshError::CountTooLarge { place: Place::Part("header"), what: "vertices", count, limit };
+    u32::try_from(count).map_err(|_| too_large)
+}
+
+/// Place of the list of vertex indices among an element's properties.
+fn index_list(element: &Element, part: &'static str) -> Result<usize, MeshError> {
+    let place = element.properties.iter().position(|property| {
+        matches!(property.kind, PropertyKind::List { .. })
+            && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
+    });
+    place.ok_or(MeshError::Missing { place: Place::Part(part), what: "list vertex_indices" })
+}
+
+/// Names the properties of faces that are not read.
+fn note_face_data(element: &Element, list: usize, report: &mut ReadReport) {
+    let others = element.properties.iter().enumerate().filter(|&(place, _)| place != list);
+    report
+        .warnings
+        .extend(others.map(|(_, property)| Warning::FaceDataIgnored { name: property.name.clone() }));
+}
+
+/// Adds the strips of one list, which negative indices (also written as the largest unsigned one) separate.
+fn add_strips(place: Place, indices: &[i64], n_vertices: u32, faces: &mut Faces) -> Result<(), MeshError> {
+    let mut strip = Vec::new();
+    for part in indices.split(|&index| index == -1 || index == i64::from(u32::MAX)) {
+        strip.clear();
+        for &index in part {
+            strip.push(check_index(index, n_vertices, place)?);
+        }
+        faces.push_strip(&strip);
+    }
+    Ok(())
+}
+
+/// An index as it is stored, if it points at a vertex.
+pub(crate) fn check_index(index: i64, n_vertices: u32, place: Place) -> Result<u32, MeshError> {
+    let count = u64::from(n_vertices);
+    let valid = u32::try_from(index).ok().filter(|&index| index < n_vertices);
+    valid.ok_or(MeshError::IndexOutOfRange { place, what: "vertex", index, count })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ScalarType;
+
+    const TEXT: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n\
+        property list uchar int vertex_indices\nend_header\n\
+        0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n3 0 1 2\n3 0 2 3\n";
+
+    fn check_error(text: &str, message: &str) {
+        assert_eq!(read(text.as_bytes()).unwrap_err().to_string(), message);
+    }
+
+    #[test]
+    fn text_gives_vertices_faces_and_colours() {
+        let (mesh, report) = read(TEXT.as_bytes()).unwrap();
+        assert_eq!(mesh.positions, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+        let color = mesh.attribute("color").unwrap();
+        assert_eq!((color.scalar, color.n_components), (ScalarType::U8, 3));
+        assert_eq!(color.bytes, [255, 0, 0, 0, 255, 0, 0, 0, 255, 9, 9, 9]);
+        assert_eq!(report, ReadReport::new(MeshFormat::Ply));
+    }
+
+    #[test]
+    fn faces_may_come_first_and_unknown_elements_anywhere() {
+        let text = "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nproperty int b\nelement face 1\n\
+            property list int uint vertex_index\nproperty float q\nelement vertex 3\nproperty list uchar int tags\n\
+            property double z\nproperty int y\nproperty char x\nend_header\n5 6 3 0 1 2 0.5 2 7 7 0 0 1 0 0 2 0 1 9 0 0 0";
+        let (mesh, report) = read(text.as_bytes()).unwrap();
+        assert_eq!(mesh.positions, [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0]]);
+        assert_eq!(report.n_ignored_elements, 1);
+        assert_eq!(report.warnings.len(), 2);
+    }
+
+    #[test]
+    fn other_lists_of_a_face_are_passed_over() {
+        let text = TEXT
+            .replace("vertex_indices\n", "vertex_indices\nproperty list uchar float texcoord\n")
+            .replace("3 0 1 2\n3 0 2 3\n", "3 0 1 2 2 0.5 0.5\n3 0 2 3 0\n");
+        assert_eq!(read(text.as_bytes()).unwrap().0.triangles, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn more_values_than_declared_are_cut_off_by_line() {
+        let text = TEXT.replace("3 0 1 2\n3 0 2 3\n", "3 0 1 2 77 78\n3 0 2 3 9\n");
+        let (mesh, report) = read(text.as_bytes()).unwrap();
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(report.warnings, [Warning::LineRestIgnored { n_lines: 2 }]);
+        let one_line = TEXT.replace("2 3\n", "2 3").replace("1 2\n", "1 2 ");
+        assert_eq!(read(one_line.as_bytes()).unwrap().0.triangles, mesh.triangles);
+    }
+
+    #[test]
+    fn strips_restart_and_drop_their_joints() {
+        let strips = TEXT
+            .replace("element face 2\nproperty list uchar int", "element tristrips 1\nproperty list int int")
+            .replace("3 0 1 2\n3 0 2 3\n", "9 0 1 2 3 3 -1 1 2 3\n");
+        let (mesh, _) = read(strips.as_bytes()).unwrap();
+        assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 3], [1, 2, 3]]);
+    }
+
+    #[test]
+    fn contents_at_fault_are_named_by_line() {
+        check_error(&TEXT.replace("3 0 2 3", "3 0 2 4"), "line 18: vertex index 4 is out of range (4 there)");
+        check_error(
+            &TEXT.replace("3 0 2 3", "3 0 -2 3"),
+            "line 18: vertex index -2 is out of range (4 there)",
+        );
+        check_error(&TEXT.replace("1 1 0 0", "1 nan 0 0"), "line 15: coordinate NaN is not finite");
+        check_error(
+            &TEXT.replace("1 1 0 0", "1 1e39 0 0"),
+            "line 15: coordinate 1e39 is beyond the range of single precision",
+        );
+        check_error(
+            &TEXT.replace("9 9 9", "9 900 9"),
+            "line 16: expected a value of the property's type, found \"900\"",
+        );
+        check_error(&TEXT.replace("3 0 2 3\n", ""), "the file ends at line 18 after 1 of 2 faces");
+        check_error(&TEXT.replace("3 0 2 3\n", "-1"), "line 18: expected the length of a list, found \"-1\"");
+        check_error(&TEXT.replace("property float z\n", "property float w\n"), "the vertex element has no z");
+        check_error(
+            &TEXT.replace("vertex_indices", "corners"),
+            "the face element has no list vertex_indices",
+        );
+        check_error(&TEXT.replace("3 0 1 2\n3 0 2 3\n", "0\n2 0 1\n"), "no faces (4 vertices)");
+    }
+
+    #[test]
+    fn giant_counts_are_refused_before_anything_is_allocated() {
+        check_error(
+            &TEXT.replace("vertex 4", "vertex 18446744073709551615"),
+            "the header: 18446744073709551615 vertices announced, there can be at most 4294967295",
+        );
+        check_error(
+            &TEXT.replace("vertex 4", "vertex 4000000000"),
+            "line 13: 4000000000 vertices announced, there can be at most 5",
+        );
+        check_error(
+            &TEXT.replace("3 0 2 3", "4000000000 0 2 3"),
+            "line 18: 4000000000 list items announced, there can be at most 4",
+        );
+    }
+}

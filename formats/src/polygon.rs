@@ -1,0 +1,337 @@
+//! Polygons, concave ones too, cut into triangles over their own corners.
+//!
+//! A fan is right for convex polygons only. The ear-cutting libraries made for drawing drop corners on straight edges, which
+//! tears a surface apart where a neighbour uses such a corner; here a polygon of n corners always gives n - 2 triangles that
+//! use every corner. Following G. H. Meisters, "Polygons have ears" (American Mathematical Monthly 82, 1975): cut off a
+//! convex corner whose triangle holds no other corner, until a triangle is left.
+//!
+//! The polygon is seen along the axis nearest to its normal (M. E. Newell's: areas of the shadows on the coordinate planes),
+//! which keeps the coordinates as exact as they are. Only reflex and flat corners can block an ear; they are sorted
+//! along one axis so that a small ear looks at few. The work per corner is bounded, so a hostile polygon costs time in
+//! proportion to its corners, and a polygon that crosses itself ends in a fan.
+
+/// Cuts polygons into triangles, keeping its buffers from one to the next.
+#[derive(Default)]
+pub(crate) struct Triangulator {
+    /// Corners seen along the axis nearest to the normal, counter-clockwise.
+    flat: Vec<[f64; 2]>,
+    /// Ring of the corners not yet cut off.
+    next: Vec<usize>,
+    previous: Vec<usize>,
+    is_cut: Vec<bool>,
+    /// Corners that are not strictly convex, by ascending first coordinate.
+    blockers: Vec<usize>,
+    /// Corners that may still be looked at before the rest becomes a fan.
+    budget: usize,
+}
+
+/// Corners looked at per corner cut, on the average, before giving up.
+const LOOKS_PER_CORNER: usize = 1024;
+
+impl Triangulator {
+    /// Appends the `n - 2` triangles of a polygon of `n >= 3` corners, as places in `corners`, in the polygon's sense of rotation.
+    ///
+    /// Returns whether all of them have the polygon's orientation: for a polygon that does not cross itself they then tile it
+    /// exactly, because their oriented areas add up to the polygon at every point of the plane. Costs about n log n, at most
+    /// 1024 n.
+    pub(crate) fn triangulate(&mut self, corners: &[[f32; 3]], triangles: &mut Vec<[usize; 3]>) -> bool {
+        match corners.len() {
+            0..=2 => true,
+            3 => {
+                triangles.push([0, 1, 2]);
+                true
+            }
+            4 => {
+                let (halves, is_tiled) = split_quad(corners);
+                triangles.extend(halves);
+                is_tiled
+            }
+            _ => {
+                self.lay_flat(corners);
+                self.cut_ears(triangles)
+            }
+        }
+    }
+
+    /// Fills the buffers for a polygon: the shadow, the ring, the blockers.
+    fn lay_flat(&mut self, corners: &[[f32; 3]]) {
+        let n_corners = corners.len();
+        let normal = newell_normal(corners);
+        let axis =
+            (0..3).fold(0, |best, axis| if normal[axis].abs() > normal[best].abs() { axis } else { best });
+        let (mut first, mut second) = ((axis + 1) % 3, (axis + 2) % 3);
+        if normal[axis] < 0.0 {
+            (first, second) = (second, first);
+        }
+        self.flat.clear();
+        self.flat.extend(corners.iter().map(|corner| [f64::from(corner[first]), f64::from(corner[second])]));
+        self.next.clear();
+        self.next.extend((1..n_corners).chain([0]));
+        self.previous.clear();
+        self.previous.extend([n_corners - 1].into_iter().chain(0..n_corners - 1));
+        self.is_cut.clear();
+        self.is_cut.resize(n_corners, false);
+        self.blockers.clear();
+        let (flat, previous, next) = (&self.flat, &self.previous, &self.next);
+        self.blockers.extend(
+            (0..n_corners).filter(|&corner| {
+                orientation(flat[previous[corner]], flat[corner], flat[next[corner]]) <= 0.0
+            }),
+        );
+        self.blockers.sort_by(|&a, &b| flat[a][0].total_cmp(&flat[b][0]));
+        self.budget = LOOKS_PER_CORNER * n_corners;
+    }
+
+    /// Walks around the ring cutting ears, and fans what has none.
+    fn cut_ears(&mut self, triangles: &mut Vec<[usize; 3]>) -> bool {
+        let mut n_left = self.flat.len();
+        let mut n_since_cut = 0;
+        let mut corner = 0;
+        while n_left > 3 && n_since_cut < n_left && self.budget > 0 {
+            let [before, after] = [self.previous[corner], self.next[corner]];
+            if self.is_ear([before, corner, after]) {
+                triangles.push([before, corner, after]);
+                self.next[before] = after;
+                self.previous[after] = before;
+                self.is_cut[corner] = true;
+                n_left -= 1;
+                n_since_cut = 0;
+                // Going past the neighbour keeps the walk from shaving slivers off one corner.
+                corner = self.next[after];
+            } else {
+                n_since_cut += 1;
+                corner = after;
+            }
+        }
+        let mut is_tiled = true;
+        let apex = corner;
+        let mut second = self.next[apex];
+        for _ in 0..n_left - 2 {
+            let third = self.next[second];
+            is_tiled &= orientation(self.flat[apex], self.flat[second], self.flat[third]) >= 0.0;
+            triangles.push([apex, second, third]);
+            second = third;
+        }
+        is_tiled
+    }
+
+    /// Whether a corner with its neighbours is strictly convex and its triangle holds no other corner.
+    fn is_ear(&mut self, triangle: [usize; 3]) -> bool {
+        self.budget = self.budget.saturating_sub(1);
+        let [a, b, c] = triangle.map(|corner| self.flat[corner]);
+        if orientation(a, b, c) <= 0.0 {
+            return false;
+        }
+        let low = a[0].min(b[0]).min(c[0]);
+        let high = a[0].max(b[0]).max(c[0]);
+        let start = self.blockers.partition_point(|&corner| self.flat[corner][0] < low);
+        for &blocker in &self.blockers[start..] {
+            let point = self.flat[blocker];
+            if point[0] > high || self.budget == 0 {
+                break;
+            }
+            self.budget -= 1;
+            // Corners in one place with a corner of the ear are the two sides of a cut made to reach a hole.
+            let is_apart = point != a && point != b && point != c;
+            let is_inside = || {
+                orientation(a, b, point) >= 0.0
+                    && orientation(b, c, point) >= 0.0
+                    && orientation(c, a, point) >= 0.0
+            };
+            if is_apart && !self.is_cut[blocker] && is_inside() {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// The two triangles of a quadrilateral: along the only diagonal inside it, or else along the shorter one.
+fn split_quad(corners: &[[f32; 3]]) -> ([[usize; 3]; 2], bool) {
+    const ALONG_02: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+    const ALONG_13: [[usize; 3]; 2] = [[1, 2, 3], [1, 3, 0]];
+    let point = |corner: usize| corners[corner].map(f64::from);
+    let agreement =
+        |[first, second]: [[usize; 3]; 2]| dot(cross_of(first.map(point)), cross_of(second.map(point)));
+    let (agreement_02, agreement_13) = (agreement(ALONG_02), agreement(ALONG_13));
+    let length_sq = |a: usize, b: usize| {
+        let edge = subtract(point(a), point(b));
+        dot(edge, edge)
+    };
+    let takes_13 = match (agreement_02 > 0.0, agreement_13 > 0.0) {
+        (true, false) => false,
+        (false, true) => true,
+        // Flat triangles (agreement zero) are better than folded ones.
+        (false, false) if agreement_02 != agreement_13 => agreement_13 > agreement_02,
+        _ => length_sq(1, 3) < length_sq(0, 2),
+    };
+    if takes_13 { (ALONG_13, agreement_13 >= 0.0) } else { (ALONG_02, agreement_02 >= 0.0) }
+}
+
+/// Twice the area vector of a polygon; its components are twice the areas of its shadows on the coordinate planes.
+fn newell_normal(corners: &[[f32; 3]]) -> [f64; 3] {
+    let start = corners[0].map(f64::from);
+    let mut normal = [0.0; 3];
+    for pair in corners[1..].windows(2) {
+        let triangle = cross_of([start, pair[0].map(f64::from), pair[1].map(f64::from)]);
+        normal = std::array::from_fn(|axis| normal[axis] + triangle[axis]);
+    }
+    normal
+}
+
+fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+fn cross_of([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    let (u, v) = (subtract(b, a), subtract(c, a));
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|axis| a[axis] - b[axis])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn triangulate(corners: &[[f32; 2]]) -> (Vec<[usize; 3]>, bool) {
+        let corners: Vec<[f32; 3]> = corners.iter().map(|c| [c[0], c[1], 0.0]).collect();
+        let mut triangles = Vec::new();
+        let is_tiled = Triangulator::default().triangulate(&corners, &mut triangles);
+        assert_eq!(triangles.len(), corners.len().saturating_sub(2));
+        (triangles, is_tiled)
+    }
+
+    fn areas(corners: &[[f32; 2]], triangles: &[[usize; 3]]) -> Vec<f64> {
+        let point = |corner: usize| corners[corner].map(f64::from);
+        triangles.iter().map(|t| 0.5 * orientation(point(t[0]), point(t[1]), point(t[2]))).collect()
+    }
+
+    fn polygon_area(corners: &[[f32; 2]]) -> f64 {
+        let shifted = corners.iter().cycle().skip(1);
+        corners.iter().zip(shifted).map(|(a, b)| 0.5 * f64::from(a[0] * b[1] - a[1] * b[0])).sum()
+    }
+
+    /// Every triangle keeps the polygon's orientation and together they have its area.
+    fn check_tiles(corners: &[[f32; 2]]) {
+        let (triangles, is_tiled) = triangulate(corners);
+        let areas = areas(corners, &triangles);
+        let expected = polygon_area(corners);
+        assert!(is_tiled);
+        assert!(areas.iter().all(|area| area * expected.signum() >= 0.0), "{areas:?}");
+        let total: f64 = areas.iter().sum();
+        assert!((total - expected).abs() <= 1e-5 * expected.abs(), "{total} {expected}");
+    }
+
+    #[test]
+    fn an_arrow_head_is_split_at_its_notch() {
+        let arrow = [[0.0, 0.0], [2.0, -2.0], [1.0, 0.0], [2.0, 2.0]];
+        for turn in 0..4 {
+            let mut turned = arrow;
+            turned.rotate_left(turn);
+            check_tiles(&turned);
+            turned.reverse();
+            check_tiles(&turned);
+        }
+    }
+
+    #[test]
+    fn a_convex_quadrilateral_is_split_along_the_shorter_diagonal() {
+        let kite = [[0.0, 0.0], [1.0, -0.5], [4.0, 0.0], [1.0, 0.5]];
+        assert_eq!(triangulate(&kite).0, [[1, 2, 3], [1, 3, 0]]);
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        assert_eq!(triangulate(&square).0, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn concave_polygons_keep_their_area() {
+        let comb: Vec<[f32; 2]> = (0..20_u8)
+            .flat_map(|i| [[f32::from(i), 0.0], [f32::from(i) + 0.5, 5.0]])
+            .chain([[20.0, 0.0], [20.0, -1.0], [0.0, -1.0]])
+            .rev()
+            .collect();
+        check_tiles(&comb);
+        let spiral: Vec<[f32; 2]> = (0..200_u8)
+            .map(|i| f32::from(i) * 0.1)
+            .map(|angle| [angle * angle.cos(), angle * angle.sin()])
+            .chain(
+                (0..200_u8)
+                    .rev()
+                    .map(|i| f32::from(i) * 0.1)
+                    .map(|angle| [(angle + 1.0) * angle.cos(), (angle + 1.0) * angle.sin()]),
+            )
+            .collect();
+        check_tiles(&spiral);
+    }
+
+    #[test]
+    fn corners_on_straight_edges_are_used() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 2.0], [0.0, 2.0], [0.0, 1.0]];
+        check_tiles(&square);
+        let (triangles, _) = triangulate(&square);
+        assert!((0..7).all(|corner| triangles.iter().flatten().any(|&used| used == corner)));
+        assert!(areas(&square, &triangles).iter().all(|&area| area > 0.0));
+    }
+
+    #[test]
+    fn a_hole_reached_by_a_cut_stays_open() {
+        let outer = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+        let hole = [[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0]];
+        let corners: Vec<[f32; 2]> = outer.into_iter().chain(hole).collect();
+        check_tiles(&corners);
+    }
+
+    #[test]
+    fn crossing_and_flat_polygons_still_give_triangles() {
+        let bow_tie = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+        assert!(!triangulate(&bow_tie).1);
+        let line: Vec<[f32; 2]> = (0..6_u8).map(|i| [f32::from(i), 0.0]).collect();
+        assert_eq!(triangulate(&line).0.len(), 4);
+        triangulate(&[[1.0, 1.0]; 9]);
+    }
+
+    #[test]
+    fn any_plane_gives_the_same_result() {
+        let notched = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [1.5, 0.5], [0.0, 3.0_f32]];
+        let planes: [fn([f32; 2]) -> [f32; 3]; 4] = [
+            |p| [p[0], p[1], 7.0],
+            |p| [7.0, p[0], p[1]],
+            |p| [p[0], 7.0, p[1]],
+            |p| [p[0], p[1], p[0] + p[1]],
+        ];
+        for plane in planes {
+            let mut triangles = Vec::new();
+            assert!(Triangulator::default().triangulate(&notched.map(plane), &mut triangles));
+            assert!(areas(&notched, &triangles).iter().all(|&area| area > 0.0));
+        }
+    }
+
+    proptest! {
+        /// Star-shaped polygons are simple, so their triangles must tile them.
+        #[test]
+        fn star_shaped_polygons_are_tiled(radii in proptest::collection::vec(0.1_f32..1.0, 5..200)) {
+            let n_corners = radii.len() as f32;
+            let corners: Vec<[f32; 2]> = radii
+                .iter()
+                .enumerate()
+                .map(|(i, radius)| (i as f32 / n_corners * std::f32::consts::TAU, radius))
+                .map(|(angle, radius)| [radius * angle.cos(), radius * angle.sin()])
+                .collect();
+            check_tiles(&corners);
+        }
+
+        #[test]
+        fn any_corners_give_two_triangles_fewer(corners in proptest::collection::vec([-2_i8..3, -2_i8..3], 3..40)) {
+            let corners: Vec<[f32; 2]> = corners.iter().map(|corner| corner.map(f32::from)).collect();
+            let (triangles, _) = triangulate(&corners);
+            prop_assert!(triangles.iter().flatten().all(|&corner| corner < corners.len()));
+        }
+    }
+}
