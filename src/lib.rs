@@ -1,8 +1,15 @@
 //! One mesh in, every level of detail out, each with an error that is stated.
 
+pub mod bound;
+mod build;
+pub mod decimate;
 pub mod generate;
 pub mod geometry;
 pub mod history;
+pub mod mesh;
 
+pub use build::{
+    Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, bounding_diagonal, build,
+};
 pub use history::History;
 pub use nephrite_formats::{Attribute, ScalarType, TriangleMesh};

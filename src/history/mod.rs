@@ -4,12 +4,16 @@
 //! at step `s` when `birth <= s < death`; the simplices with `death == s` are exactly those that the ones with
 //! `birth == s` replaced. Nothing here knows which decimator ran.
 
+mod recorder;
+
+pub use recorder::Recorder;
+
 /// Death of whatever is still alive when the decimator stops.
 pub const NEVER: u32 = u32::MAX;
 
 /// Lifetimes of all simplices and vertices of one decimation, in steps.
 ///
-/// Shapes: `simplices`, `birth` and `death` run in parallel, the input's simplices first and in the input's order;
+/// Shapes: `simplices`, `birth` and `death` run in parallel, in order of death;
 /// `vertex_death[v]` belongs to vertex `v` of the input; `errors.len() == n_steps + 1`.
 /// Invariants: `birth < death`; a simplex uses only vertices that die no earlier than it does; `errors` never falls.
 #[derive(Clone, Debug, Default, PartialEq)]

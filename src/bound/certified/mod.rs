@@ -1,0 +1,97 @@
+//! A proven bound on the two-sided Hausdorff distance between the input and every level.
+//!
+//! The naive proof cuts each surface into pieces and looks for a near triangle of the other surface for every piece, in
+//! both directions, after every removal. Here both directions follow from one continuous map that is carried along and
+//! changed only inside the hole of each removal; ARCHITECTURE.md gives the argument in full.
+//!
+//! The map takes the input *onto* the current mesh. A source vertex that is still alive is its own image; any other
+//! one belongs to a triangle and its image is the nearest point there. A source edge runs through triangles in turn
+//! ([`chains`]), crossing each edge between two of them at the nearest point of that edge. On a source triangle the
+//! crossings are joined by chords, the pieces between chords lie in one current triangle each, and the map is affine on
+//! them. The distance to a convex set is convex, so no point moves farther than a corner of its piece: the largest
+//! displacement over source vertices and crossings bounds the distance from input to mesh, and because the map is onto
+//! also from mesh to input.
+//!
+//! Replacing the star of a vertex moves only what is mapped into the star. Its vertices get new triangles; a source
+//! edge enters and leaves the hole over ring edges, which stay, and takes the one path between two triangles that the
+//! hole's [`dual_tree`] has.
+
+pub mod chains;
+pub mod dual_tree;
+pub mod source;
+mod transfer;
+
+use super::removed::RemovedVertices;
+use crate::decimate::jade::filling::Filling;
+use crate::decimate::jade::hole::Hole;
+use crate::geometry::vector::widen;
+use crate::mesh::Surface;
+use chains::Chains;
+use source::SourceEdges;
+pub use transfer::Transfer;
+
+/// No slot, or no corner.
+const NONE: u32 = u32::MAX;
+const NOT_ON_RIM: u8 = u8::MAX;
+
+/// Added to every bound, as a multiple of the largest coordinate. The rounding errors of a displacement, a few dozen
+/// operations in `f64` on exact `f32`, are a millionth of it; the rest covers whoever checks the bound in `f32`.
+const SLACK: f64 = f32::EPSILON as f64;
+
+/// The map from the input onto the current mesh.
+#[derive(Clone, Debug)]
+pub struct Certified {
+    source: SourceEdges,
+    chains: Chains,
+    removed: RemovedVertices,
+    /// Slot of the triangle that each removed vertex belongs to.
+    slot_of: Vec<u32>,
+    /// For a removed vertex of the boundary: the corner of its triangle at which its boundary edge starts.
+    rim_corner: Vec<u8>,
+    slack: f64,
+}
+
+impl Certified {
+    /// The identity on `surface`, which is the input.
+    pub fn new(surface: &Surface) -> Self {
+        let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
+        let source = SourceEdges::new(n_vertices, surface.iter().map(|(_, corners)| corners));
+        let largest =
+            surface.positions().iter().flat_map(|&p| widen(p)).fold(0.0, |m: f64, x| m.max(x.abs()));
+        Self {
+            chains: Chains::new(source.n_edges(), n_slots),
+            source,
+            removed: RemovedVertices::new(n_slots, n_vertices),
+            slot_of: vec![NONE; n_vertices],
+            rim_corner: vec![NOT_ON_RIM; n_vertices],
+            slack: SLACK * largest,
+        }
+    }
+
+    /// A bound on the displacement inside `hole` once `filling` closes it, or some larger value than `limit` if the
+    /// bound is above that. O(vertices and edges mapped into the star, times valence).
+    pub fn bound(
+        &self,
+        surface: &Surface,
+        hole: &Hole,
+        filling: &Filling,
+        limit: f64,
+        transfer: &mut Transfer,
+    ) -> f64 {
+        transfer.displacement(self, surface, hole, filling, limit) + self.slack
+    }
+
+    /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
+    pub fn commit(&mut self, surface: &Surface, hole: &Hole, filling: &Filling, transfer: &mut Transfer) {
+        transfer.apply(self, surface, hole, filling);
+    }
+
+    /// Source vertices whose image lies in the star of `hole`, the removed one first.
+    pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = u32> + 'a {
+        self.removed.of_hole(hole)
+    }
+
+    fn is_alive(&self, v: u32) -> bool {
+        self.slot_of[v as usize] == NONE
+    }
+}

@@ -1,0 +1,102 @@
+//! The paper's estimates of the global error (JADE, section 4): e_g1 accumulated, e_g2 from the removed vertices, and
+//! e_g3, the larger of both.
+
+use super::accumulated::{Accumulated, Sampler};
+use super::removed::{RemovedVertices, nearest};
+use super::{Errors, Limits};
+use crate::decimate::jade::filling::Filling;
+use crate::decimate::jade::hole::Hole;
+use crate::geometry::distance::point_segment_distance_sq;
+use crate::mesh::Surface;
+
+/// Which estimate decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// e_g1.
+    Accumulated,
+    /// e_g2.
+    Removed,
+    /// e_g3, the larger of the two.
+    Joint,
+}
+
+/// Estimated errors of the current mesh.
+#[derive(Clone, Debug)]
+pub struct Estimate {
+    sampler: Sampler,
+    accumulated: Option<Accumulated>,
+    removed: Option<RemovedVertices>,
+}
+
+impl Estimate {
+    /// The estimate at the start, when `surface` is the input.
+    pub fn new(kind: Kind, surface: &Surface) -> Self {
+        let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
+        Self {
+            sampler: Sampler::new(surface),
+            accumulated: (kind != Kind::Removed).then(|| Accumulated::new(n_slots)),
+            removed: (kind != Kind::Accumulated).then(|| RemovedVertices::new(n_slots, n_vertices)),
+        }
+    }
+
+    /// The sampler of local errors.
+    pub fn sampler(&self) -> &Sampler {
+        &self.sampler
+    }
+
+    /// Errors of replacing the star of `hole` by `filling`. Stops early once a limit is passed.
+    pub fn errors(&self, surface: &Surface, hole: &Hole, filling: &Filling, limits: Limits) -> Errors {
+        let mut errors = Errors::default();
+        if !hole.closed {
+            errors.local = boundary_error(hole);
+        }
+        for i in 0..filling.triangles.len() {
+            let triangle = filling.triangle(hole, i);
+            let local_sq = self.sampler.local_error_sq(&triangle, hole, limits.local * limits.local);
+            errors.local = errors.local.max(local_sq.sqrt());
+            if errors.within(limits) {
+                errors.global = errors.global.max(self.accumulated_error(hole, filling, i));
+            }
+            if !errors.within(limits) {
+                return errors;
+            }
+        }
+        for v in self.removed.iter().flat_map(|removed| removed.of_hole(hole)) {
+            errors.global = errors.global.max(nearest(hole, filling, surface.point(v)).1.sqrt());
+            if !errors.within(limits) {
+                break;
+            }
+        }
+        errors
+    }
+
+    /// e_g1 of the filling's triangle `i`; 0 where it is not asked for.
+    fn accumulated_error(&self, hole: &Hole, filling: &Filling, i: usize) -> f64 {
+        let Some(accumulated) = &self.accumulated else { return 0.0 };
+        let of_star = |i: usize| accumulated.of(hole.slots[i]);
+        let error = self.sampler.accumulated_error(&filling.triangle(hole, i), hole, of_star);
+        if hole.closed { error } else { error.max(boundary_error(hole)) }
+    }
+
+    /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
+    pub fn commit(&mut self, surface: &Surface, hole: &Hole, filling: &Filling) {
+        let n = filling.triangles.len();
+        let errors: Vec<f64> = (0..n).map(|i| self.accumulated_error(hole, filling, i)).collect();
+        if let Some(accumulated) = &mut self.accumulated {
+            hole.slots.iter().zip(errors).for_each(|(&slot, error)| accumulated.set(slot, error));
+        }
+        if let Some(removed) = &mut self.removed {
+            let vertices: Vec<u32> = removed.of_hole(hole).collect();
+            removed.clear(hole);
+            for v in vertices {
+                removed.add(v, hole.slots[nearest(hole, filling, surface.point(v)).0]);
+            }
+        }
+    }
+}
+
+/// Distance of a boundary vertex to the boundary edge that replaces its two (JADE, section 3).
+fn boundary_error(hole: &Hole) -> f64 {
+    let last = hole.points[hole.n_ring() - 1];
+    point_segment_distance_sq(hole.apex, [hole.points[0], last]).sqrt()
+}

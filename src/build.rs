@@ -1,0 +1,258 @@
+//! From a mesh to the history of its simplification.
+
+use crate::bound::GlobalError;
+use crate::bound::certified::Certified;
+use crate::bound::estimate::{Estimate, Kind};
+use crate::decimate::jade::JadeOptions;
+use crate::decimate::jade::rounds::{Decimation, Workers, run};
+use crate::decimate::jade::thresholds::Thresholds;
+use crate::geometry::vector::{Vector, length, max, min, sub, widen};
+use crate::history::{History, Recorder};
+use crate::mesh::{RepairReport, Repaired, Seams, Surface, repair};
+use nephrite_formats::TriangleMesh;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Which decimator runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Vertex removal under a bound on the global error.
+    #[default]
+    Jade,
+}
+
+/// What the error of a level means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Bound {
+    /// A proven bound on the two-sided Hausdorff distance to the input.
+    #[default]
+    Certified,
+    /// The paper's estimate e_g3, the larger of the other two.
+    Joint,
+    /// The paper's estimate e_g2, from the removed vertices.
+    Removed,
+    /// The paper's estimate e_g1, accumulated local errors.
+    Accumulated,
+}
+
+/// How to build.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BuildOptions {
+    /// The decimator.
+    pub method: Method,
+    /// What its errors mean.
+    pub bound: Bound,
+    /// Largest error of any level, in mesh units; `None` simplifies as far as it goes.
+    pub max_error: Option<f64>,
+    /// Edges at which the normals turn by more than this, in degrees, are feature edges.
+    pub feature_angle_degrees: f64,
+    /// Constants of JADE.
+    pub jade: JadeOptions,
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            bound: Bound::default(),
+            max_error: None,
+            feature_angle_degrees: 60.0,
+            jade: JadeOptions::default(),
+        }
+    }
+}
+
+/// How far a build has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// What is being done.
+    pub phase: Phase,
+    /// Triangles alive now.
+    pub n_triangles: usize,
+    /// Triangles of the input.
+    pub n_triangles_in: usize,
+    /// Error of the current mesh, in mesh units.
+    pub error: f64,
+    /// Error at which the build ends, if one was asked for.
+    pub max_error: Option<f64>,
+}
+
+/// Parts of a build.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// Welding and dropping what is no surface.
+    Repair,
+    /// Removing vertices.
+    Decimate,
+}
+
+/// Told of progress now and then, from the building thread; may stop the build.
+pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
+
+/// What a build leaves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Build {
+    /// The input after repair: what the history's indices refer to.
+    pub mesh: TriangleMesh,
+    /// Every triangle that ever lived.
+    pub history: History,
+    /// What the repair did.
+    pub repairs: RepairReport,
+}
+
+/// Why a build failed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// No triangle is left after repair.
+    #[error("no triangle with three distinct corners among the {n_triangles} of the mesh")]
+    NoTriangles {
+        /// Triangles before repair.
+        n_triangles: usize,
+    },
+    /// A coordinate is not a number, or not finite.
+    #[error("vertex {vertex} has a coordinate that is not finite")]
+    NotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} names vertex {found}, the mesh has {n_vertices}")]
+    IndexOutOfRange {
+        /// Index of the triangle.
+        triangle: usize,
+        /// The index it holds.
+        found: u32,
+        /// Vertices there are.
+        n_vertices: usize,
+    },
+    /// An option has no meaning.
+    #[error("{option} must be {expected}, found {found}")]
+    Option {
+        /// Its name.
+        option: &'static str,
+        /// What it must be.
+        expected: &'static str,
+        /// What it is.
+        found: f64,
+    },
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// Repairs `mesh` and simplifies it as the options say, on the current rayon pool.
+///
+/// The result does not depend on the number of threads.
+///
+/// # Errors
+///
+/// [`BuildError`] for a mesh without triangles or with coordinates or indices that mean nothing, for options out of
+/// their range, and when `observer` breaks.
+pub fn build(
+    mesh: &TriangleMesh,
+    options: &BuildOptions,
+    observer: Observer<'_>,
+) -> Result<Build, BuildError> {
+    check_options(options)?;
+    check_mesh(mesh)?;
+    let n_triangles_in = mesh.triangles.len();
+    let max_error = options.max_error;
+    let tell = |phase, n_triangles, error| {
+        observer(&Progress { phase, n_triangles, n_triangles_in, error, max_error }).is_continue()
+    };
+    if !tell(Phase::Repair, n_triangles_in, 0.0) {
+        return Err(BuildError::Interrupted);
+    }
+    let Repaired { mesh, points, report: repairs } = repair(mesh);
+    if mesh.triangles.is_empty() {
+        return Err(BuildError::NoTriangles { n_triangles: n_triangles_in });
+    }
+    let go_on = |decimation: &Decimation| {
+        tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
+    };
+    let history = decimate(&mesh, points.as_deref(), options, &go_on)?;
+    Ok(Build { mesh, history, repairs })
+}
+
+fn decimate(
+    mesh: &TriangleMesh,
+    points: Option<&[u32]>,
+    options: &BuildOptions,
+    go_on: &dyn Fn(&Decimation) -> bool,
+) -> Result<History, BuildError> {
+    let triangles = mesh.triangles.clone();
+    let (triangles, seams) = match points {
+        None => (triangles, None),
+        Some(points) => {
+            (triangles.iter().map(|t| t.map(|v| points[v as usize])).collect(), Some(Seams::new(triangles)))
+        }
+    };
+    let surface = Surface::new(mesh.positions.clone(), triangles);
+    let error = match options.bound {
+        Bound::Certified => GlobalError::Certified(Certified::new(&surface)),
+        Bound::Joint => GlobalError::Estimate(Estimate::new(Kind::Joint, &surface)),
+        Bound::Removed => GlobalError::Estimate(Estimate::new(Kind::Removed, &surface)),
+        Bound::Accumulated => GlobalError::Estimate(Estimate::new(Kind::Accumulated, &surface)),
+    };
+    let mut decimation = Decimation {
+        error,
+        recorder: Recorder::new(surface.n_slots(), surface.n_vertices(), mesh.rounding),
+        surface,
+        seams,
+        cos_feature_angle: options.feature_angle_degrees.to_radians().cos(),
+        aspect_loss: options.jade.aspect_loss,
+        c2: options.jade.c2,
+        workers: Workers::new(),
+    };
+    let thresholds = Thresholds::new(options.max_error, bounding_diagonal(mesh), &options.jade);
+    if !run(&mut decimation, thresholds, go_on) {
+        return Err(BuildError::Interrupted);
+    }
+    let Decimation { surface, seams, recorder, .. } = decimation;
+    let vertices = |slot: u32, corners| seams.as_ref().map_or(corners, |seams| seams.corners(slot));
+    Ok(recorder.finish(surface.iter().map(|(slot, corners)| (slot, vertices(slot, corners)))))
+}
+
+/// Length of the diagonal of the mesh's bounding box, in mesh units.
+pub fn bounding_diagonal(mesh: &TriangleMesh) -> f64 {
+    let mut points = mesh.positions.iter().map(|&p| widen(p));
+    let Some(first) = points.next() else { return 0.0 };
+    let (low, high): (Vector, Vector) = points.fold((first, first), |(l, h), p| (min(l, p), max(h, p)));
+    length(sub(high, low))
+}
+
+fn check_mesh(mesh: &TriangleMesh) -> Result<(), BuildError> {
+    let is_finite = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
+    if let Some(vertex) = mesh.positions.iter().position(|p| !is_finite(p)) {
+        return Err(BuildError::NotFinite { vertex });
+    }
+    let n_vertices = mesh.positions.len();
+    let flat = mesh.triangles.as_flattened();
+    match flat.iter().position(|&v| v as usize >= n_vertices) {
+        Some(at) => Err(BuildError::IndexOutOfRange { triangle: at / 3, found: flat[at], n_vertices }),
+        None => Ok(()),
+    }
+}
+
+fn check_options(options: &BuildOptions) -> Result<(), BuildError> {
+    let check = |option, expected, found: f64, is_good: bool| {
+        if is_good { Ok(()) } else { Err(BuildError::Option { option, expected, found }) }
+    };
+    let BuildOptions {
+        max_error,
+        feature_angle_degrees: angle,
+        jade: JadeOptions { k, c1, c2, aspect_loss },
+        ..
+    } = *options;
+    if let Some(error) = max_error {
+        check("max error", "finite and above zero", error, error.is_finite() && error > 0.0)?;
+    }
+    check("feature angle", "from 0 to 180 degrees", angle, (0.0..=180.0).contains(&angle))?;
+    check("k", "finite and at least 1", k, k.is_finite() && k >= 1.0)?;
+    check("c1", "above 1, at most 16", c1, c1 > 1.0 && c1 <= 16.0)?;
+    check("c2", "from 1 to 16", c2, (1.0..=16.0).contains(&c2))?;
+    check("aspect loss", "from 0 to 1", aspect_loss, (0.0..=1.0).contains(&aspect_loss))
+}

@@ -1,0 +1,108 @@
+//! One vertex as a candidate for removal: its hole, the filling, and the errors that would follow.
+
+use super::classify::{Class, classify};
+use super::filling::Filling;
+use super::fit::{Covered, fit};
+use super::flip::flip_edges;
+use super::hole::{Hole, NoHole};
+use super::triangulate::{Polygons, triangulate};
+use crate::bound::certified::{Certified, Transfer};
+use crate::bound::estimate::Estimate;
+use crate::bound::{Errors, GlobalError, Limits};
+use crate::mesh::{Seams, Surface};
+
+/// All that a candidate is judged by.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a> {
+    /// The current mesh.
+    pub surface: &'a Surface,
+    /// Its seams, if it has any.
+    pub seams: Option<&'a Seams>,
+    /// Its errors so far.
+    pub error: &'a GlobalError,
+    /// Cosine of the feature angle.
+    pub cos_feature_angle: f64,
+    /// How much worse than the star's a flipped edge may make the aspect ratio, as a part of it.
+    pub aspect_loss: f64,
+}
+
+/// What became of a candidate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// It can be removed, with these errors.
+    Removable(Errors),
+    /// Not under these limits: its errors are at least these.
+    Above(Errors),
+    /// Not while its star stays as it is.
+    Impossible,
+}
+
+/// Buffers for one candidate at a time.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    /// The candidate's hole.
+    pub hole: Hole,
+    /// Its filling, after [`Verdict::Removable`].
+    pub filling: Filling,
+    polygons: Polygons,
+    covered: Covered,
+    /// Buffers for carrying the certified map along.
+    pub transfer: Transfer,
+}
+
+/// Judges the removal of `v` under `limits`; leaves hole and filling in `scratch`.
+pub fn judge(situation: Situation<'_>, v: u32, limits: Limits, scratch: &mut Scratch) -> Verdict {
+    let Situation { surface, seams, error, cos_feature_angle, .. } = situation;
+    match scratch.hole.gather(surface, v) {
+        Ok(()) if scratch.hole.n_ring() >= 3 => {}
+        Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Verdict::Impossible,
+    }
+    let class = classify(&scratch.hole, surface, seams, cos_feature_angle);
+    if class == Class::SeamCorner {
+        return Verdict::Impossible;
+    }
+    let errors = match error {
+        GlobalError::Estimate(estimate) => judge_estimate(situation, estimate, class, limits, scratch),
+        GlobalError::Certified(certified) => judge_certified(situation, certified, class, limits, scratch),
+    };
+    match errors {
+        None => Verdict::Impossible,
+        Some(errors) if errors.within(limits) => Verdict::Removable(errors),
+        Some(errors) => Verdict::Above(errors),
+    }
+}
+
+/// The paper's way: triangulate, flip, estimate.
+fn judge_estimate(
+    situation: Situation<'_>,
+    estimate: &Estimate,
+    class: Class,
+    limits: Limits,
+    scratch: &mut Scratch,
+) -> Option<Errors> {
+    let Scratch { hole, filling, polygons, .. } = scratch;
+    if !triangulate(situation.surface, hole, class, polygons, filling) {
+        return None;
+    }
+    flip_edges(situation.surface, hole, estimate.sampler(), situation.aspect_loss, filling);
+    Some(estimate.errors(situation.surface, hole, filling, limits))
+}
+
+/// The filling that fits the input best, or the paper's where the hole is too large for that; then the proof.
+fn judge_certified(
+    situation: Situation<'_>,
+    certified: &Certified,
+    class: Class,
+    limits: Limits,
+    scratch: &mut Scratch,
+) -> Option<Errors> {
+    let Scratch { hole, filling, polygons, covered, transfer } = scratch;
+    let surface = situation.surface;
+    let points = certified.vertices_in(hole).map(|v| surface.point(v));
+    let is_fitted = covered.project(hole, points) && fit(surface, hole, class, covered, polygons, filling);
+    if !is_fitted && !triangulate(surface, hole, class, polygons, filling) {
+        return None;
+    }
+    let global = certified.bound(surface, hole, filling, limits.global, transfer);
+    Some(Errors { local: 0.0, global })
+}

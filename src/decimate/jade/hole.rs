@@ -1,0 +1,160 @@
+//! The hole that removing a vertex would leave: its star, in order around it.
+//!
+//! ```text
+//!      r1 ---- r0           ring    r0 r1 r2 r3 ..., counter-clockwise seen from outside
+//!     /  \ s0 /  \          slots   s_i holds the triangle (removed, r_i, r_i+1)
+//!   r2 s1 \  / s_n-1        closed  an inner vertex: s_n-1 joins the last ring vertex to the first
+//!     \    v     \                  a boundary vertex: the ring is a chain, the edge last-first will be new
+//! ```
+
+use crate::geometry::vector::{Vector, cross, sub};
+use crate::mesh::Surface;
+
+/// Stars of more triangles are left alone until their neighbours have gone; also what a `u8` ring index must hold.
+pub const MAX_VALENCE: usize = 64;
+
+/// A vertex and its star, ordered. Reused from vertex to vertex, so that nothing is allocated per candidate.
+#[derive(Clone, Debug, Default)]
+pub struct Hole {
+    /// The vertex to be removed.
+    pub removed: u32,
+    /// Its position.
+    pub apex: Vector,
+    /// Whether the star surrounds the vertex.
+    pub closed: bool,
+    /// Link vertices in order.
+    pub ring: Vec<u32>,
+    /// Their positions.
+    pub points: Vec<Vector>,
+    /// Slots of the star's triangles in order: one per ring vertex when closed, one fewer otherwise.
+    pub slots: Vec<u32>,
+    pub(crate) spokes: Vec<Spoke>,
+}
+
+/// A triangle of the star, seen from the removed vertex: `(removed, from, to)`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spoke {
+    from: u32,
+    to: u32,
+    slot: u32,
+}
+
+/// Why a vertex has no hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoHole {
+    /// The star is not a disk or half disk of consistently oriented triangles, or is empty.
+    Complex,
+    /// More than [`MAX_VALENCE`] triangles.
+    TooLarge,
+}
+
+impl Hole {
+    /// Orders the star of `v`. O(valence^2), valence at most [`MAX_VALENCE`].
+    pub fn gather(&mut self, surface: &Surface, v: u32) -> Result<(), NoHole> {
+        let star = surface.star(v);
+        if star.len() > MAX_VALENCE {
+            return Err(NoHole::TooLarge);
+        }
+        self.removed = v;
+        self.apex = surface.point(v);
+        self.ring.clear();
+        self.points.clear();
+        self.slots.clear();
+        self.spokes.clear();
+        self.spokes.extend(star.iter().map(|&slot| {
+            let [a, b, c] = surface.corners(slot);
+            let (from, to) = if a == v {
+                (b, c)
+            } else if b == v {
+                (c, a)
+            } else {
+                (a, b)
+            };
+            Spoke { from, to, slot }
+        }));
+        self.order()?;
+        self.points.extend(self.ring.iter().map(|&r| surface.point(r)));
+        Ok(())
+    }
+
+    /// Chains the spokes into ring and slots. The start is the lowest ring vertex, or the chain's first, so that the
+    /// order does not depend on how the star happens to be listed.
+    fn order(&mut self) -> Result<(), NoHole> {
+        let is_first = |v: u32| self.spokes.iter().all(|spoke| spoke.to != v);
+        let chain_start = self.spokes.iter().map(|spoke| spoke.from).find(|&v| is_first(v));
+        self.closed = chain_start.is_none();
+        let lowest = self.spokes.iter().map(|spoke| spoke.from).min();
+        let Some(start) = chain_start.or(lowest) else { return Err(NoHole::Complex) };
+        let mut at = start;
+        self.ring.push(start);
+        for _ in 0..self.spokes.len() {
+            let mut onward = self.spokes.iter().filter(|spoke| spoke.from == at);
+            let (Some(spoke), None) = (onward.next(), onward.next()) else { return Err(NoHole::Complex) };
+            self.slots.push(spoke.slot);
+            at = spoke.to;
+            if at == start && self.closed && self.slots.len() == self.spokes.len() {
+                break;
+            }
+            if self.ring.contains(&at) {
+                return Err(NoHole::Complex);
+            }
+            self.ring.push(at);
+        }
+        let n_expected = self.slots.len() + usize::from(!self.closed);
+        let is_disk = self.ring.len() == n_expected && self.ring.len() >= if self.closed { 3 } else { 2 };
+        if is_disk { Ok(()) } else { Err(NoHole::Complex) }
+    }
+
+    /// Vertices of the ring.
+    pub fn n_ring(&self) -> usize {
+        self.ring.len()
+    }
+
+    /// The ring index after `i`, around the hole.
+    pub fn next(&self, i: usize) -> usize {
+        if i + 1 == self.ring.len() { 0 } else { i + 1 }
+    }
+
+    /// Slot of the star's triangle that follows ring vertex `i`; the last one at the end of a chain.
+    pub fn slot_after(&self, i: usize) -> u32 {
+        self.slots[i.min(self.slots.len() - 1)]
+    }
+
+    /// Slot of the star's triangle that leads up to ring vertex `i`; the first one at the start of a chain.
+    pub fn slot_before(&self, i: usize) -> u32 {
+        self.slots[if i > 0 {
+            i - 1
+        } else if self.closed {
+            self.slots.len() - 1
+        } else {
+            0
+        }]
+    }
+
+    /// Corner positions of the star's `i`-th triangle.
+    pub fn triangle(&self, i: usize) -> [Vector; 3] {
+        [self.apex, self.points[i], self.points[self.next(i)]]
+    }
+
+    /// Normal of the star's `i`-th triangle, as long as twice its area.
+    pub fn normal(&self, i: usize) -> Vector {
+        let [a, b, c] = self.triangle(i);
+        cross(sub(b, a), sub(c, a))
+    }
+
+    /// Area-weighted normal of the star: the normal of the average plane, of no particular length.
+    pub fn average_normal(&self) -> Vector {
+        let mut sum = [0.0; 3];
+        for i in 0..self.slots.len() {
+            let normal = self.normal(i);
+            sum = crate::geometry::vector::add(sum, normal);
+        }
+        sum
+    }
+
+    /// Whether the ring vertices `i` and `j` are neighbours on the ring by an edge that exists.
+    pub fn is_ring_edge(&self, i: usize, j: usize) -> bool {
+        let (low, high) = (i.min(j), i.max(j));
+        high == low + 1 || (self.closed && low == 0 && high + 1 == self.ring.len())
+    }
+}

@@ -1,0 +1,40 @@
+//! JADE: simplification by vertex removal under a bound on the global error.
+//!
+//! A. Ciampalini, P. Cignoni, C. Montani and R. Scopigno, "Multiresolution decimation based on global error", *The
+//! Visual Computer* 13, 1997. The paper goes through the vertices one by one, under limits that rise from iteration to
+//! iteration, and removes whatever is below them. Here an iteration works in rounds: all candidates are judged in
+//! parallel, then an independent set of them, cheapest first, is removed. No heap is needed, and the result does not
+//! depend on the number of threads.
+
+pub mod candidate;
+pub mod classify;
+pub mod ears;
+pub mod filling;
+pub mod fit;
+pub mod flip;
+pub mod hole;
+pub mod optimal;
+pub mod projection;
+pub mod rounds;
+pub mod thresholds;
+pub mod triangulate;
+pub mod validity;
+
+/// Constants of the algorithm, by their names in the paper.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct JadeOptions {
+    /// The first limit on the local error is the largest one divided by this (section 5). At least 1.
+    pub k: f64,
+    /// Factor from one iteration's limit to the next (section 5). Above 1.
+    pub c1: f64,
+    /// Limit on the global error as a multiple of that on the local error (section 5). At least 1.
+    pub c2: f64,
+    /// How much worse than in the star a flipped edge may make the aspect ratio, as a part of it (section 6).
+    pub aspect_loss: f64,
+}
+
+impl Default for JadeOptions {
+    fn default() -> Self {
+        Self { k: 256.0, c1: 1.3, c2: 1.2, aspect_loss: 0.5 }
+    }
+}

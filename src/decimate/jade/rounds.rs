@@ -1,0 +1,250 @@
+//! The driver: iterations under rising limits, and in each of them rounds over an independent set.
+
+use super::candidate::{Scratch, Situation, Verdict, judge};
+use super::filling::Filling;
+use super::hole::Hole;
+use super::thresholds::Thresholds;
+use crate::bound::accumulated::round_up;
+use crate::bound::{GlobalError, Limits};
+use crate::history::Recorder;
+use crate::mesh::{Seams, Surface};
+use rayon::prelude::*;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a decimation works on, and what it has done so far.
+pub struct Decimation {
+    /// The current mesh; its vertices are points.
+    pub surface: Surface,
+    /// Its seams, if it has any.
+    pub seams: Option<Seams>,
+    /// Its errors.
+    pub error: GlobalError,
+    /// The history so far.
+    pub recorder: Recorder,
+    /// Cosine of the feature angle.
+    pub cos_feature_angle: f64,
+    /// See [`super::JadeOptions::aspect_loss`].
+    pub aspect_loss: f64,
+    /// See [`super::JadeOptions::c2`].
+    pub c2: f64,
+    /// Buffers of the threads.
+    pub workers: Workers,
+}
+
+/// Candidates that one thread judges at a time.
+const CHUNK: usize = 32;
+
+/// Buffers for judging, one set per thread of the pool and one for the caller.
+#[derive(Default)]
+pub struct Workers {
+    scratches: Vec<Mutex<Scratch>>,
+}
+
+impl Workers {
+    /// Buffers for the current rayon pool.
+    pub fn new() -> Self {
+        Self { scratches: (0..=rayon::current_num_threads()).map(|_| Mutex::default()).collect() }
+    }
+
+    /// This thread's buffers. A thread never asks for them twice at once, so it never waits.
+    fn scratch(&self) -> MutexGuard<'_, Scratch> {
+        let last = self.scratches.len() - 1;
+        let own = rayon::current_thread_index().unwrap_or(last).min(last);
+        self.scratches[own].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// What is known of each vertex: the local limit below which it can certainly not be removed.
+struct Candidates {
+    /// 0 when nothing is known, infinite when it is impossible or the vertex is gone.
+    needed: Vec<f32>,
+    /// Global error, once it was found removable with its present star.
+    removable: Vec<f32>,
+    /// Last round in which the vertex or a neighbour of it was picked.
+    picked: Vec<u32>,
+    /// Vertices that may still be removed.
+    open: Vec<u32>,
+}
+
+/// Marks a vertex that has not been found removable.
+const UNKNOWN: f32 = f32::INFINITY;
+
+/// Removes vertices until the limits end, or nothing is left to remove, or `go_on` says stop; false in that case.
+pub fn run(
+    decimation: &mut Decimation,
+    mut thresholds: Thresholds,
+    go_on: &dyn Fn(&Decimation) -> bool,
+) -> bool {
+    let mut candidates = Candidates::new(decimation.surface.n_vertices());
+    let mut round = 0;
+    let mut limits = thresholds.limits();
+    loop {
+        let mut worklist = candidates.below(limits);
+        while !worklist.is_empty() {
+            if !go_on(decimation) {
+                return false;
+            }
+            judge_all(decimation, &mut candidates, limits, &worklist);
+            round += 1;
+            let picked = pick(decimation, &mut candidates, round, worklist);
+            worklist = remove_all(decimation, &mut candidates, limits, picked);
+        }
+        let Some(next) = thresholds.advance(candidates.least_needed()) else { return true };
+        limits = next;
+    }
+}
+
+impl Candidates {
+    fn new(n_vertices: usize) -> Self {
+        Self {
+            needed: vec![0.0; n_vertices],
+            removable: vec![UNKNOWN; n_vertices],
+            picked: vec![0; n_vertices],
+            open: (0..).take(n_vertices).collect(),
+        }
+    }
+
+    /// Vertices that the limits may admit, in ascending order. Forgets those that are impossible for good.
+    fn below(&mut self, limits: Limits) -> Vec<u32> {
+        let needed = &self.needed;
+        let limit = limits.local;
+        self.open.iter().copied().filter(|&v| f64::from(needed[v as usize]) <= limit).collect()
+    }
+
+    /// The least local limit that could admit anything.
+    fn least_needed(&self) -> f64 {
+        self.open.iter().map(|&v| f64::from(self.needed[v as usize])).fold(f64::INFINITY, f64::min)
+    }
+
+    fn forget(&mut self, v: u32) {
+        self.needed[v as usize] = 0.0;
+        self.removable[v as usize] = UNKNOWN;
+    }
+
+    fn close(&mut self, v: u32) {
+        self.needed[v as usize] = f32::INFINITY;
+        self.removable[v as usize] = UNKNOWN;
+    }
+}
+
+impl Decimation {
+    fn situation(&self) -> Situation<'_> {
+        Situation {
+            surface: &self.surface,
+            seams: self.seams.as_ref(),
+            error: &self.error,
+            cos_feature_angle: self.cos_feature_angle,
+            aspect_loss: self.aspect_loss,
+        }
+    }
+}
+
+/// Judges every vertex of the worklist, in parallel.
+fn judge_all(decimation: &Decimation, candidates: &mut Candidates, limits: Limits, worklist: &[u32]) {
+    let (workers, c2) = (&decimation.workers, decimation.c2);
+    let situation = decimation.situation();
+    let verdicts: Vec<Verdict> = worklist
+        .par_chunks(CHUNK)
+        .flat_map_iter(|chunk| {
+            let mut scratch = workers.scratch();
+            chunk.iter().map(|&v| judge(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
+        })
+        .collect();
+    for (&v, verdict) in worklist.iter().zip(verdicts) {
+        let v = v as usize;
+        (candidates.needed[v], candidates.removable[v]) = match verdict {
+            Verdict::Removable(errors) => (0.0, round_up(errors.global)),
+            Verdict::Above(errors) => (round_up(errors.local.max(errors.global / c2)), UNKNOWN),
+            Verdict::Impossible => (f32::INFINITY, UNKNOWN),
+        };
+    }
+}
+
+/// An independent set of removable vertices, no two of them neighbours: cheapest first, ties to the lower vertex.
+fn pick(decimation: &Decimation, candidates: &mut Candidates, round: u32, worklist: Vec<u32>) -> Vec<u32> {
+    let mut ranked = worklist;
+    ranked.retain(|&v| candidates.removable[v as usize] < UNKNOWN);
+    ranked.par_sort_unstable_by(|&a, &b| {
+        let error = |v: u32| candidates.removable[v as usize];
+        error(a).total_cmp(&error(b)).then(a.cmp(&b))
+    });
+    ranked.retain(|&v| {
+        let is_free = candidates.picked[v as usize] != round;
+        if is_free {
+            for &slot in decimation.surface.star(v) {
+                decimation.surface.corners(slot).iter().for_each(|&r| candidates.picked[r as usize] = round);
+            }
+        }
+        is_free
+    });
+    ranked
+}
+
+/// Removes the picked vertices, one step each, and returns the vertices to be judged anew, in ascending order.
+fn remove_all(
+    decimation: &mut Decimation,
+    candidates: &mut Candidates,
+    limits: Limits,
+    picked: Vec<u32>,
+) -> Vec<u32> {
+    let mut touched = vec![];
+    let workers = std::mem::take(&mut decimation.workers);
+    let mut scratch = workers.scratch();
+    for v in picked {
+        // The neighbours' holes may have made an edge that this filling needs for itself: judged again.
+        match judge(decimation.situation(), v, limits, &mut scratch) {
+            Verdict::Removable(errors) => {
+                remove(decimation, &mut scratch, errors.global);
+                candidates.close(v);
+                touched.extend_from_slice(&scratch.hole.ring);
+            }
+            Verdict::Above(_) | Verdict::Impossible => touched.push(v),
+        }
+    }
+    drop(scratch);
+    decimation.workers = workers;
+    decimation.surface.compact();
+    candidates.open.retain(|&v| !decimation.surface.star(v).is_empty());
+    touched.par_sort_unstable();
+    touched.dedup();
+    touched.iter().for_each(|&v| candidates.forget(v));
+    touched
+}
+
+/// Removes one vertex: record, errors, mesh, in this order, since each needs the star as it was.
+fn remove(decimation: &mut Decimation, scratch: &mut Scratch, step_error: f64) {
+    let Decimation { surface, seams, error, recorder, .. } = decimation;
+    let Scratch { hole, filling, transfer, .. } = scratch;
+    recorder.step(step_error);
+    let dying = |slot: u32| seams.as_ref().map_or_else(|| surface.corners(slot), |seams| seams.corners(slot));
+    hole.slots.iter().for_each(|&slot| recorder.death(slot, dying(slot)));
+    error.commit(surface, hole, filling, transfer);
+    let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
+    let vertices = seams.as_ref().map(|seams| seam_vertices(surface, seams, hole, filling));
+    match &vertices {
+        None => recorder.vertex_death(hole.removed),
+        Some(_) => seams.iter().for_each(|seams| {
+            hole.slots
+                .iter()
+                .for_each(|&slot| recorder.vertex_death(seams.vertex(surface, slot, hole.removed)));
+        }),
+    }
+    surface.replace_star(hole.removed, &hole.slots, &born);
+    for (i, &slot) in (0..born.len()).zip(&hole.slots) {
+        recorder.birth(slot);
+        if let (Some(seams), Some(vertices)) = (seams.as_mut(), &vertices) {
+            seams.set(slot, vertices[i]);
+        }
+    }
+}
+
+/// The vertices of the filling's triangles: at each ring point the one that the star has on the same side of the seam.
+fn seam_vertices(surface: &Surface, seams: &Seams, hole: &Hole, filling: &Filling) -> Vec<[u32; 3]> {
+    let corner = |t: usize, i: u8| {
+        // A part of the filling runs round from its start to its end, so only its start lies before its triangles.
+        let (i, is_start) = (usize::from(i), i == filling.part_start(t));
+        let slot = if is_start { hole.slot_after(i) } else { hole.slot_before(i) };
+        seams.vertex(surface, slot, hole.ring[i])
+    };
+    (0..filling.triangles.len()).map(|t| filling.triangles[t].map(|i| corner(t, i))).collect()
+}

@@ -1,0 +1,95 @@
+//! The limits that rise from iteration to iteration (JADE, section 5):
+//!
+//! ```text
+//! e*_l(j) = min(e*/k c1^j, e*)        e*_g(j) = min(c2 e*_l(j), e*)
+//! ```
+//!
+//! Low limits first keep the error of every intermediate mesh as low as can be, and so every level of the history
+//! good. With no error asked for, e* is a percent of the bounding diagonal for the start and then no limit at all.
+
+use super::JadeOptions;
+use crate::bound::Limits;
+
+/// e* of the first limit when no error is asked for, as a part of the bounding diagonal: the coarsest of the paper's runs.
+const START: f64 = 0.01;
+
+/// The limits of one iteration after another.
+#[derive(Clone, Copy, Debug)]
+pub struct Thresholds {
+    local: f64,
+    target: f64,
+    c1: f64,
+    c2: f64,
+}
+
+impl Thresholds {
+    /// Limits up to `max_error`, or without end, for a mesh with the given bounding diagonal.
+    pub fn new(max_error: Option<f64>, diagonal: f64, options: &JadeOptions) -> Self {
+        let start = max_error.unwrap_or(START * diagonal) / options.k;
+        let target = max_error.unwrap_or(f64::INFINITY);
+        Self { local: start.min(target), target, c1: options.c1, c2: options.c2 }
+    }
+
+    /// The limits of this iteration.
+    pub fn limits(&self) -> Limits {
+        Limits { local: self.local, global: (self.c2 * self.local).min(self.target) }
+    }
+
+    /// Goes on to the first later iteration whose limits could admit a candidate that needs a local limit of
+    /// `needed`; `None` when there is no such iteration.
+    pub fn advance(&mut self, needed: f64) -> Option<Limits> {
+        if self.local >= self.target || !needed.is_finite() || needed > self.target {
+            return None;
+        }
+        loop {
+            self.local = (self.local * self.c1).min(self.target);
+            if self.local >= needed || self.local >= self.target {
+                return Some(self.limits());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(max_error: Option<f64>, diagonal: f64) -> Vec<Limits> {
+        let mut thresholds = Thresholds::new(max_error, diagonal, &JadeOptions::default());
+        let mut limits = vec![thresholds.limits()];
+        while limits.len() < 100 {
+            let Some(next) = thresholds.advance(0.0) else { break };
+            limits.push(next);
+        }
+        limits
+    }
+
+    #[test]
+    fn limits_follow_the_formula_and_end_at_the_target() {
+        let JadeOptions { k, c1, c2, .. } = JadeOptions::default();
+        let target = 2.0;
+        let limits = all(Some(target), 100.0);
+        for (j, limit) in (0..).zip(&limits) {
+            let local = (target / k * c1.powi(j)).min(target);
+            assert!((limit.local - local).abs() < 1e-12);
+            assert!((limit.global - (local * c2).min(target)).abs() < 1e-12);
+        }
+        assert_eq!(limits.last(), Some(&Limits { local: target, global: target }));
+        assert_eq!(limits.len(), 23);
+    }
+
+    #[test]
+    fn limits_without_a_target_start_low_and_have_no_end() {
+        let limits = all(None, 100.0);
+        assert_eq!(limits[0].local, 1.0 / 256.0);
+        assert_eq!(limits.len(), 100);
+    }
+
+    #[test]
+    fn iterations_that_could_admit_nothing_are_skipped() {
+        let mut thresholds = Thresholds::new(None, 100.0, &JadeOptions::default());
+        let limits = thresholds.advance(0.1).unwrap();
+        assert!(limits.local >= 0.1 && limits.local < 0.1 * JadeOptions::default().c1);
+        assert_eq!(thresholds.advance(f64::INFINITY), None);
+    }
+}

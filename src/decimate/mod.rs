@@ -1,0 +1,3 @@
+//! Decimators: each turns a mesh into the history of its simplification.
+
+pub mod jade;

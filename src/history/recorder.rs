@@ -1,0 +1,66 @@
+//! Writes the history down while a decimator runs.
+
+use super::{History, NEVER};
+
+/// Turns the comings and goings of simplices in slots into lifetimes.
+#[derive(Clone, Debug)]
+pub struct Recorder<const CORNERS: usize = 3> {
+    history: History<CORNERS>,
+    birth_in_slot: Vec<u32>,
+}
+
+impl<const CORNERS: usize> Recorder<CORNERS> {
+    /// A recorder for an input of `n_slots` simplices over `n_vertices` vertices, at step 0 with the given error.
+    pub fn new(n_slots: usize, n_vertices: usize, error: f64) -> Self {
+        let history =
+            History { vertex_death: vec![NEVER; n_vertices], errors: vec![error], ..History::default() };
+        Self { history, birth_in_slot: vec![0; n_slots] }
+    }
+
+    /// Starts the next step. Its error is `error`, or that of the step before if that is larger.
+    pub fn step(&mut self, error: f64) {
+        let last = self.history.errors.last().copied().unwrap_or_default();
+        self.history.errors.push(error.max(last));
+    }
+
+    /// Error of the current step.
+    pub fn error(&self) -> f64 {
+        self.history.errors.last().copied().unwrap_or_default()
+    }
+
+    /// The simplex in `slot` dies at this step.
+    pub fn death(&mut self, slot: u32, simplex: [u32; CORNERS]) {
+        let now = self.now();
+        self.record(slot, simplex, now);
+    }
+
+    /// A simplex is born into `slot` at this step.
+    pub fn birth(&mut self, slot: u32) {
+        self.birth_in_slot[slot as usize] = self.now();
+    }
+
+    /// Vertex `v` dies at this step.
+    pub fn vertex_death(&mut self, v: u32) {
+        self.history.vertex_death[v as usize] = self.now();
+    }
+
+    /// The whole history, given what is alive now.
+    pub fn finish(mut self, alive: impl Iterator<Item = (u32, [u32; CORNERS])>) -> History<CORNERS> {
+        alive.for_each(|(slot, simplex)| self.record(slot, simplex, NEVER));
+        self.history
+    }
+
+    fn record(&mut self, slot: u32, simplex: [u32; CORNERS], death: u32) {
+        self.history.simplices.push(simplex);
+        self.history.birth.push(self.birth_in_slot[slot as usize]);
+        self.history.death.push(death);
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "fewer steps than vertices, and vertices are counted in u32"
+    )]
+    fn now(&self) -> u32 {
+        (self.history.errors.len() - 1) as u32
+    }
+}

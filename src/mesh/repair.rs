@@ -1,0 +1,275 @@
+//! From the triangles of a file to the triangles of a mesh: weld, drop what is no surface, count everything.
+//!
+//! The rules, in this order:
+//!
+//! 1. Vertices equal in position (bit for bit, `-0` equal to `0`) and in every attribute become one vertex.
+//! 2. Vertices equal in position alone are *seam* vertices: they stay apart in the output, since their attributes
+//!    differ, and share one *point* in the topology, so that the two sides of a seam never come apart.
+//! 3. A triangle with two corners on one point is no surface: dropped.
+//! 4. A triangle with the same three points in the same orientation as an earlier one is dropped. The opposite
+//!    orientation is kept: two-sided sheets are drawn that way.
+//! 5. A triangle of zero area with three distinct points is kept: its neighbours are joined through it.
+//! 6. Vertices that no triangle uses are dropped.
+
+use crate::geometry::vector::{cross, length_sq, sub, widen};
+use nephrite_formats::{Attribute, TriangleMesh};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+/// How many vertices and triangles each rule of the repair touched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RepairReport {
+    /// Vertices merged into an identical one.
+    pub vertices_welded: usize,
+    /// Vertices that share their position with another one and differ from it in an attribute.
+    pub vertices_on_seams: usize,
+    /// Vertices dropped because no triangle uses them.
+    pub vertices_unreferenced: usize,
+    /// Triangles dropped because two of their corners are one point.
+    pub triangles_degenerate: usize,
+    /// Triangles dropped because an earlier one has the same points in the same orientation.
+    pub triangles_duplicate: usize,
+    /// Triangles of zero area, kept.
+    pub triangles_zero_area: usize,
+}
+
+/// A mesh whose triangles are distinct and have three distinct points each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Repaired {
+    /// The mesh; its vertices keep the order they had.
+    pub mesh: TriangleMesh,
+    /// The point of each vertex, where some vertices share one: `points[v] <= v` is the first vertex at that position.
+    /// `None` where every vertex has a position of its own.
+    pub points: Option<Vec<u32>>,
+    /// What was done.
+    pub report: RepairReport,
+}
+
+/// Applies the rules of this module. O(n log n).
+pub fn repair(mesh: &TriangleMesh) -> Repaired {
+    let mut report = RepairReport::default();
+    let (vertices, points) = weld(mesh);
+    report.vertices_welded = count_moved(&vertices);
+
+    let mut triangles = Vec::with_capacity(mesh.triangles.len());
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| points[v as usize]);
+        if a == b || b == c || c == a {
+            report.triangles_degenerate += 1;
+        } else {
+            triangles.push(triangle.map(|v| vertices[v as usize]));
+        }
+    }
+    report.triangles_duplicate = drop_duplicates(&mut triangles, &points);
+    report.triangles_zero_area = triangles.iter().filter(|t| has_zero_area(mesh, t)).count();
+
+    let renumbered = renumber_referenced(mesh.positions.len(), &triangles);
+    let n_used = renumbered.iter().filter(|&&v| v != UNUSED).count();
+    report.vertices_unreferenced = mesh.positions.len() - n_used - report.vertices_welded;
+    for triangle in &mut triangles {
+        *triangle = triangle.map(|v| renumbered[v as usize]);
+    }
+    let points = seam_points(&points, &renumbered, n_used);
+    report.vertices_on_seams = points.as_deref().map_or(0, count_shared);
+    Repaired { mesh: keep_used(mesh, triangles, &renumbered), points, report }
+}
+
+const UNUSED: u32 = u32::MAX;
+
+/// For each vertex the first vertex identical to it, and the first vertex at its position.
+fn weld(mesh: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
+    let n_vertices = vertex_count(mesh);
+    let mut order: Vec<u32> = (0..n_vertices).collect();
+    order.par_sort_unstable_by(|&a, &b| compare_vertices(mesh, a, b).then(a.cmp(&b)));
+    let mut vertices: Vec<u32> = (0..n_vertices).collect();
+    let mut points = vertices.clone();
+    for same_place in order.chunk_by(|&a, &b| position_key(mesh, a) == position_key(mesh, b)) {
+        let point = same_place.iter().copied().min().unwrap_or_default();
+        for same in same_place.chunk_by(|&a, &b| compare_vertices(mesh, a, b) == Ordering::Equal) {
+            for &v in same {
+                vertices[v as usize] = same[0];
+                points[v as usize] = point;
+            }
+        }
+    }
+    (vertices, points)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "readers refuse meshes of more than u32::MAX vertices")]
+fn vertex_count(mesh: &TriangleMesh) -> u32 {
+    mesh.positions.len() as u32
+}
+
+fn compare_vertices(mesh: &TriangleMesh, a: u32, b: u32) -> Ordering {
+    position_key(mesh, a).cmp(&position_key(mesh, b)).then_with(|| {
+        mesh.attributes
+            .iter()
+            .map(|attribute| value(attribute, a).cmp(value(attribute, b)))
+            .find(|order| order.is_ne())
+            .unwrap_or(Ordering::Equal)
+    })
+}
+
+/// The bits of a position, with `-0` turned into `0`.
+fn position_key(mesh: &TriangleMesh, v: u32) -> [u32; 3] {
+    mesh.positions[v as usize].map(|coordinate| (coordinate + 0.0).to_bits())
+}
+
+fn value(attribute: &Attribute, v: u32) -> &[u8] {
+    let stride = attribute.stride_bytes();
+    &attribute.bytes[v as usize * stride..][..stride]
+}
+
+fn count_moved(vertices: &[u32]) -> usize {
+    vertices.iter().zip(0..).filter(|&(&to, from): &(&u32, u32)| to != from).count()
+}
+
+/// Drops every triangle whose points, in orientation, an earlier one has; returns how many.
+fn drop_duplicates(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> usize {
+    let key = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| points[v as usize]);
+        if a < b && a < c {
+            [a, b, c]
+        } else if b < c {
+            [b, c, a]
+        } else {
+            [c, a, b]
+        }
+    };
+    let mut order: Vec<usize> = (0..triangles.len()).collect();
+    order.par_sort_unstable_by_key(|&t| (key(&triangles[t]), t));
+    let mut keep = vec![true; triangles.len()];
+    for pair in order.windows(2) {
+        if key(&triangles[pair[0]]) == key(&triangles[pair[1]]) {
+            keep[pair[1]] = false;
+        }
+    }
+    let n_before = triangles.len();
+    let mut kept = keep.iter();
+    triangles.retain(|_| kept.next() == Some(&true));
+    n_before - triangles.len()
+}
+
+fn has_zero_area(mesh: &TriangleMesh, triangle: &[u32; 3]) -> bool {
+    let [a, b, c] = triangle.map(|v| widen(mesh.positions[v as usize]));
+    length_sq(cross(sub(b, a), sub(c, a))) == 0.0
+}
+
+/// New index of each vertex that a triangle uses, in the old order; [`UNUSED`] for the others.
+fn renumber_referenced(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut renumbered = vec![UNUSED; n_vertices];
+    for &v in triangles.as_flattened() {
+        renumbered[v as usize] = 0;
+    }
+    let used = renumbered.iter_mut().filter(|index| **index != UNUSED);
+    used.zip(0..).for_each(|(index, next)| *index = next);
+    renumbered
+}
+
+/// The point of each kept vertex in the new numbering, or `None` where every vertex is a point of its own.
+fn seam_points(points: &[u32], renumbered: &[u32], n_used: usize) -> Option<Vec<u32>> {
+    let mut first_at_point = vec![UNUSED; points.len()];
+    let mut seams = Vec::with_capacity(n_used);
+    for (&point, &index) in points.iter().zip(renumbered).filter(|&(_, &index)| index != UNUSED) {
+        let first = &mut first_at_point[point as usize];
+        if *first == UNUSED {
+            *first = index;
+        }
+        seams.push(*first);
+    }
+    (count_moved(&seams) > 0).then_some(seams)
+}
+
+/// Vertices whose point another vertex shares.
+fn count_shared(points: &[u32]) -> usize {
+    let mut n_at_point = vec![0_u32; points.len()];
+    for &point in points {
+        n_at_point[point as usize] += 1;
+    }
+    points.iter().filter(|&&point| n_at_point[point as usize] > 1).count()
+}
+
+fn keep_used(mesh: &TriangleMesh, triangles: Vec<[u32; 3]>, renumbered: &[u32]) -> TriangleMesh {
+    let used = || renumbered.iter().enumerate().filter(|&(_, &index)| index != UNUSED).map(|(v, _)| v);
+    let keep_values = |attribute: &Attribute| {
+        let stride = attribute.stride_bytes();
+        let bytes = used().flat_map(|v| &attribute.bytes[v * stride..][..stride]).copied().collect();
+        Attribute { name: attribute.name.clone(), bytes, ..*attribute }
+    };
+    TriangleMesh {
+        origin: mesh.origin,
+        positions: used().map(|v| mesh.positions[v]).collect(),
+        triangles,
+        attributes: mesh.attributes.iter().map(keep_values).collect(),
+        rounding: mesh.rounding,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nephrite_formats::ScalarType;
+
+    fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> TriangleMesh {
+        TriangleMesh {
+            positions: positions.to_vec(),
+            triangles: triangles.to_vec(),
+            ..TriangleMesh::default()
+        }
+    }
+
+    const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+
+    #[test]
+    fn a_clean_mesh_is_left_alone() {
+        let clean = mesh(&CORNERS, &[[0, 1, 2], [2, 1, 3]]);
+        let repaired = repair(&clean);
+        assert_eq!(repaired, Repaired { mesh: clean, points: None, report: RepairReport::default() });
+    }
+
+    #[test]
+    fn equal_positions_weld_and_minus_zero_is_zero() {
+        let soup = mesh(
+            &[CORNERS[0], CORNERS[1], CORNERS[2], [-0.0, 1.0, -0.0], CORNERS[1], CORNERS[3]],
+            &[[0, 1, 2], [3, 4, 5]],
+        );
+        let repaired = repair(&soup);
+        assert_eq!(repaired.mesh, mesh(&CORNERS, &[[0, 1, 2], [2, 1, 3]]));
+        assert_eq!(repaired.report, RepairReport { vertices_welded: 2, ..RepairReport::default() });
+    }
+
+    #[test]
+    fn vertices_that_differ_in_an_attribute_share_only_their_point() {
+        let mut seam = mesh(&[CORNERS[0], CORNERS[1], CORNERS[2], CORNERS[1]], &[[0, 1, 2], [2, 3, 0]]);
+        seam.attributes.push(Attribute {
+            name: "shade".into(),
+            scalar: ScalarType::U8,
+            n_components: 1,
+            bytes: vec![7, 7, 7, 9],
+        });
+        let repaired = repair(&seam);
+        assert_eq!(repaired.mesh, seam);
+        assert_eq!(repaired.points, Some(vec![0, 1, 2, 1]));
+        assert_eq!(repaired.report, RepairReport { vertices_on_seams: 2, ..RepairReport::default() });
+    }
+
+    #[test]
+    fn triangles_that_are_no_surface_or_repeat_one_are_dropped_and_counted() {
+        let mut positions = CORNERS.to_vec();
+        positions.push([9.0; 3]);
+        positions.push([2.0, 0.0, 0.0]);
+        let messy =
+            mesh(&positions, &[[0, 1, 2], [1, 1, 2], [1, 2, 0], [2, 1, 0], [2, 1, 3], [0, 1, 5], [4, 4, 4]]);
+        let repaired = repair(&messy);
+        assert_eq!(repaired.mesh.triangles, [[0, 1, 2], [2, 1, 0], [2, 1, 3], [0, 1, 4]]);
+        let expected = RepairReport {
+            vertices_unreferenced: 1,
+            triangles_degenerate: 2,
+            triangles_duplicate: 1,
+            triangles_zero_area: 1,
+            ..RepairReport::default()
+        };
+        assert_eq!(repaired.report, expected);
+    }
+}

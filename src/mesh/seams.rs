@@ -1,0 +1,34 @@
+//! Seams: where one point carries several vertices because their attributes differ.
+
+use super::Surface;
+
+/// The vertices at the corners of every slot, parallel to the points that [`Surface`] keeps there.
+///
+/// Needed only for meshes that have seams; without one a point and its vertex are the same number.
+#[derive(Clone, Debug)]
+pub struct Seams {
+    vertices: Vec<[u32; 3]>,
+}
+
+impl Seams {
+    /// Seams of a mesh whose slot `t` has the vertices `triangles[t]`.
+    pub fn new(triangles: Vec<[u32; 3]>) -> Self {
+        Self { vertices: triangles }
+    }
+
+    /// The vertex that the triangle in `slot` has at `point`, one of its corners.
+    pub fn vertex(&self, surface: &Surface, slot: u32, point: u32) -> u32 {
+        let corner = surface.corners(slot).iter().position(|&corner| corner == point);
+        corner.map_or(point, |corner| self.vertices[slot as usize][corner])
+    }
+
+    /// The vertices of the triangle in `slot`.
+    pub fn corners(&self, slot: u32) -> [u32; 3] {
+        self.vertices[slot as usize]
+    }
+
+    /// Puts a triangle with these vertices into `slot`.
+    pub fn set(&mut self, slot: u32, vertices: [u32; 3]) {
+        self.vertices[slot as usize] = vertices;
+    }
+}

@@ -1,0 +1,116 @@
+//! The mesh while it is being simplified.
+
+use super::Stars;
+use crate::geometry::vector::{Vector, widen};
+
+/// Corners of a slot whose triangle is gone.
+const GONE: [u32; 3] = [u32::MAX; 3];
+
+/// Triangles in slots, with the star of every vertex.
+///
+/// A slot holds one triangle at a time. A retriangulated hole has fewer triangles than the star it came from, so new
+/// triangles always find room in the slots of the old ones, and arrays that run parallel to the slots never grow.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    stars: Stars,
+    n_triangles: usize,
+}
+
+impl Surface {
+    /// A surface over `positions` in which slot `t` holds `triangles[t]`.
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        let stars = Stars::new(positions.len(), &triangles);
+        Self { n_triangles: triangles.len(), positions, triangles, stars }
+    }
+
+    /// Vertices, alive or not.
+    pub fn n_vertices(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Slots, in use or not.
+    pub fn n_slots(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Triangles alive.
+    pub fn n_triangles(&self) -> usize {
+        self.n_triangles
+    }
+
+    /// Positions of all vertices, alive or not.
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// Position of vertex `v`.
+    #[inline]
+    pub fn point(&self, v: u32) -> Vector {
+        widen(self.positions[v as usize])
+    }
+
+    /// Corners of the triangle in `slot`; all `u32::MAX` once the slot is empty.
+    #[inline]
+    pub fn corners(&self, slot: u32) -> [u32; 3] {
+        self.triangles[slot as usize]
+    }
+
+    /// Corner positions of the triangle in `slot`, which must be in use.
+    #[inline]
+    pub fn triangle(&self, slot: u32) -> [Vector; 3] {
+        self.corners(slot).map(|v| self.point(v))
+    }
+
+    /// Slots in use and their triangles.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 3])> {
+        (0..).zip(self.triangles.iter().copied()).filter(|&(_, corners)| corners != GONE)
+    }
+
+    /// Slots of the triangles at `v`.
+    #[inline]
+    pub fn star(&self, v: u32) -> &[u32] {
+        self.stars.of(v)
+    }
+
+    /// How many triangles have the edge `a b`. O(valence of the smaller star).
+    pub fn n_faces(&self, a: u32, b: u32) -> usize {
+        let (fewer, other) = if self.star(a).len() <= self.star(b).len() { (a, b) } else { (b, a) };
+        self.star(fewer).iter().filter(|&&slot| self.corners(slot).contains(&other)).count()
+    }
+
+    /// Whether some triangle has the three corners, in any order.
+    pub fn has_triangle(&self, [a, b, c]: [u32; 3]) -> bool {
+        self.star(a).iter().any(|&slot| {
+            let corners = self.corners(slot);
+            corners.contains(&b) && corners.contains(&c)
+        })
+    }
+
+    /// Replaces the star of `removed`, which is `old`, by `new` triangles, in the first slots of `old`.
+    ///
+    /// `new` has fewer triangles than `old`. O(sum of the valences around the hole).
+    pub fn replace_star(&mut self, removed: u32, old: &[u32], new: &[[u32; 3]]) {
+        debug_assert!(new.len() < old.len());
+        for &slot in old {
+            for v in self.corners(slot).into_iter().filter(|&v| v != removed) {
+                self.stars.remove(v, slot);
+            }
+            self.triangles[slot as usize] = GONE;
+        }
+        self.stars.clear(removed);
+        for (&slot, &corners) in old.iter().zip(new) {
+            self.triangles[slot as usize] = corners;
+            for v in corners {
+                self.stars.add(v, slot);
+            }
+        }
+        self.n_triangles -= old.len() - new.len();
+    }
+
+    /// Gives back memory that finished replacements left behind; cheap enough to call after every round.
+    pub fn compact(&mut self) {
+        self.stars.compact(self.n_triangles);
+    }
+}
