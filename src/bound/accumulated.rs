@@ -4,10 +4,9 @@
 //! The local error of a new triangle is the largest distance of sample points on it to the star it replaces. Sampling
 //! falls short of the true distance now and then, and the sum overshoots in general: an estimate, not a bound.
 
-use crate::decimate::jade::hole::Hole;
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, length_sq, scale, sub};
-use crate::mesh::Surface;
+use crate::mesh::{Hole, Surface};
 
 /// Most random samples on one triangle.
 const MAX_RANDOM_SAMPLES: usize = 8;

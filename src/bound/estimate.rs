@@ -4,10 +4,8 @@
 use super::accumulated::{Accumulated, Sampler};
 use super::removed::{RemovedVertices, nearest};
 use super::{Errors, Limits};
-use crate::decimate::jade::filling::Filling;
-use crate::decimate::jade::hole::Hole;
 use crate::geometry::distance::point_segment_distance_sq;
-use crate::mesh::Surface;
+use crate::mesh::{Filling, Hole, Surface};
 
 /// Which estimate decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,13 +2,13 @@
 
 pub mod accumulated;
 pub mod certified;
+pub mod covered;
 pub mod estimate;
 pub mod removed;
 
-use crate::decimate::jade::filling::Filling;
-use crate::decimate::jade::hole::Hole;
-use crate::mesh::Surface;
+use crate::mesh::{Filling, Hole, Surface};
 use certified::{Certified, Transfer};
+use covered::Covered;
 use estimate::Estimate;
 
 /// The error of the current mesh, in one meaning or the other.
@@ -22,9 +22,16 @@ pub enum GlobalError {
 
 impl GlobalError {
     /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
-    pub fn commit(&mut self, surface: &Surface, hole: &Hole, filling: &Filling, transfer: &mut Transfer) {
+    pub fn commit(
+        &mut self,
+        surface: &Surface,
+        hole: &Hole,
+        filling: &Filling,
+        covered: &mut Covered,
+        transfer: &mut Transfer,
+    ) {
         match self {
-            Self::Certified(certified) => certified.commit(surface, hole, filling, transfer),
+            Self::Certified(certified) => certified.commit(surface, hole, filling, covered, transfer),
             Self::Estimate(estimate) => estimate.commit(surface, hole, filling),
         }
     }

@@ -4,10 +4,9 @@
 //! nearest of the new triangles. The largest distance is the estimate, and a true one-sided distance as far as the
 //! vertices go; what lies between them, and the other direction, it cannot see.
 
-use crate::decimate::jade::filling::Filling;
-use crate::decimate::jade::hole::Hole;
 use crate::geometry::distance::point_triangle_distance_sq;
 use crate::geometry::vector::Vector;
+use crate::mesh::{Filling, Hole};
 
 /// End of a list.
 const NONE: u32 = u32::MAX;

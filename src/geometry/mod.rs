@@ -1,4 +1,5 @@
 //! Vectors and exact distances between points, segments and triangles, in `f64`.
 
 pub mod distance;
+pub mod projection;
 pub mod vector;

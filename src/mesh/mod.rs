@@ -1,13 +1,18 @@
 //! Vertices and triangles in flat arrays: what a decimator works on.
 //!
 //! [`repair`] turns whatever a file held into triangles that a decimator can trust; [`Surface`] is the mesh while it
-//! is being simplified, with the star of every vertex at hand.
+//! is being simplified, with the star of every vertex at hand; a [`Hole`] is such a star on its way out, and a
+//! [`Filling`] what closes it.
 
+mod filling;
+mod hole;
 mod repair;
 mod seams;
 mod stars;
 mod surface;
 
+pub use filling::Filling;
+pub use hole::{Hole, MAX_VALENCE, NoHole};
 pub use repair::{RepairReport, Repaired, repair};
 pub use seams::Seams;
 pub use stars::Stars;

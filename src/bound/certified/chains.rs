@@ -40,6 +40,12 @@ impl Chains {
         Self { first: vec![NONE; n_edges], first_in_slot: vec![NONE; n_slots], records: vec![], free: NONE }
     }
 
+    /// Whether `edge` has a chain.
+    #[inline]
+    pub fn has(&self, edge: u32) -> bool {
+        self.first[edge as usize] != NONE
+    }
+
     /// Portions of `edge` in order; none where the whole edge is one portion.
     pub fn of(&self, edge: u32) -> impl Iterator<Item = Portion> + '_ {
         self.follow(self.first[edge as usize], |record| record.next).map(|record| record.portion)

@@ -3,8 +3,7 @@
 //! A triangulated polygon has no inner vertex, so its dual has no cycle, and between two of its triangles runs exactly
 //! one path. That is what makes the image of a source edge across a hole a matter of its two ends alone.
 
-use crate::decimate::jade::filling::Filling;
-use crate::decimate::jade::hole::{Hole, MAX_VALENCE};
+use crate::mesh::{Filling, Hole, MAX_VALENCE};
 
 /// Most triangles of a filling.
 const MAX_TRIANGLES: usize = MAX_VALENCE;

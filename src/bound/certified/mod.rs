@@ -21,14 +21,14 @@ pub mod dual_tree;
 pub mod source;
 mod transfer;
 
+use super::covered::Covered;
 use super::removed::RemovedVertices;
-use crate::decimate::jade::filling::Filling;
-use crate::decimate::jade::hole::Hole;
 use crate::geometry::vector::widen;
-use crate::mesh::Surface;
+use crate::mesh::{Filling, Hole, Surface};
 use chains::Chains;
 use source::SourceEdges;
 pub use transfer::Transfer;
+use transfer::{Assignment, Change, Removal};
 
 /// No slot, or no corner.
 const NONE: u32 = u32::MAX;
@@ -68,22 +68,46 @@ impl Certified {
         }
     }
 
-    /// A bound on the displacement inside `hole` once `filling` closes it, or some larger value than `limit` if the
-    /// bound is above that. O(vertices and edges mapped into the star, times valence).
+    /// A bound on the displacement inside `hole` once `filling` closes it, or some value above `limit` if the bound is
+    /// above that. `covered` holds [`Self::vertices_in`] the hole. O(vertices and edges mapped into the star).
     pub fn bound(
         &self,
         surface: &Surface,
         hole: &Hole,
         filling: &Filling,
+        covered: &Covered,
         limit: f64,
         transfer: &mut Transfer,
     ) -> f64 {
-        transfer.displacement(self, surface, hole, filling, limit) + self.slack
+        let removal = Removal { certified: self, surface, hole, filling, covered };
+        transfer.displacement(removal, limit) + self.slack
     }
 
     /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
-    pub fn commit(&mut self, surface: &Surface, hole: &Hole, filling: &Filling, transfer: &mut Transfer) {
-        transfer.apply(self, surface, hole, filling);
+    pub fn commit(
+        &mut self,
+        surface: &Surface,
+        hole: &Hole,
+        filling: &Filling,
+        covered: &mut Covered,
+        transfer: &mut Transfer,
+    ) {
+        covered.gather(surface, hole, self.vertices_in(hole));
+        let change = transfer.change(Removal { certified: self, surface, hole, filling, covered });
+        self.apply(hole, change);
+    }
+
+    fn apply(&mut self, hole: &Hole, change: Change) {
+        for (edge, portions) in change.chains {
+            self.chains.set(edge, &portions);
+        }
+        self.removed.clear(hole);
+        for Assignment { vertex, label, rim_corner } in change.assignments {
+            let slot = hole.slots[usize::from(label)];
+            self.removed.add(vertex, slot);
+            self.slot_of[vertex as usize] = slot;
+            self.rim_corner[vertex as usize] = rim_corner;
+        }
     }
 
     /// Source vertices whose image lies in the star of `hole`, the removed one first.

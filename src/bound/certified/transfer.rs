@@ -3,22 +3,39 @@
 use super::chains::Portion;
 use super::dual_tree::{Crossing, DualTree};
 use super::{Certified, NONE, NOT_ON_RIM};
-use crate::decimate::jade::filling::Filling;
-use crate::decimate::jade::hole::Hole;
+use crate::bound::covered::{Covered, Over};
 use crate::geometry::distance::{Segment, point_segment_distance_sq, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
-use crate::mesh::Surface;
+use crate::mesh::{Filling, Hole, Surface};
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
 pub struct Transfer {
     tree: DualTree,
-    vertices: Vec<u32>,
     labels: Labels,
     edges: Vec<u32>,
     old: Vec<Portion>,
     new: Vec<Portion>,
     path: Vec<Crossing>,
+}
+
+/// What a removal changes in the map.
+#[derive(Clone, Debug)]
+pub(super) struct Change {
+    /// The new triangle of every vertex mapped into the hole.
+    pub(super) assignments: Vec<Assignment>,
+    /// The new chain of every source edge that needs or needed one.
+    pub(super) chains: Vec<(u32, Vec<Portion>)>,
+}
+
+/// A source vertex and where its image is from now on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Assignment {
+    pub(super) vertex: u32,
+    /// Index of its triangle in the filling.
+    pub(super) label: u8,
+    /// See [`Certified::rim_corner`].
+    pub(super) rim_corner: u8,
 }
 
 /// The filling triangle of each source vertex that is mapped into the hole at hand.
@@ -62,24 +79,17 @@ enum End {
 
 /// A hole, its filling, and what the map is before the removal.
 #[derive(Clone, Copy)]
-struct Removal<'a> {
-    certified: &'a Certified,
-    surface: &'a Surface,
-    hole: &'a Hole,
-    filling: &'a Filling,
+pub(super) struct Removal<'a> {
+    pub(super) certified: &'a Certified,
+    pub(super) surface: &'a Surface,
+    pub(super) hole: &'a Hole,
+    pub(super) filling: &'a Filling,
+    pub(super) covered: &'a Covered,
 }
 
 impl Transfer {
     /// Largest displacement inside the hole, or the first one found above `limit`.
-    pub fn displacement(
-        &mut self,
-        certified: &Certified,
-        surface: &Surface,
-        hole: &Hole,
-        filling: &Filling,
-        limit: f64,
-    ) -> f64 {
-        let removal = Removal { certified, surface, hole, filling };
+    pub(super) fn displacement(&mut self, removal: Removal<'_>, limit: f64) -> f64 {
         let limit_sq = limit * limit;
         let mut largest_sq = self.assign_vertices(removal, limit_sq);
         if largest_sq > limit_sq {
@@ -95,48 +105,37 @@ impl Transfer {
         largest_sq.sqrt()
     }
 
-    /// Carries the removal out on the map.
-    pub fn apply(&mut self, certified: &mut Certified, surface: &Surface, hole: &Hole, filling: &Filling) {
-        let removal = Removal { certified, surface, hole, filling };
+    /// What the removal changes.
+    pub(super) fn change(&mut self, removal: Removal<'_>) -> Change {
         self.assign_vertices(removal, f64::INFINITY);
         self.collect_edges(removal);
-        let mut chains = std::mem::take(&mut self.edges)
-            .into_iter()
-            .map(|edge| {
-                self.reroute(removal, edge);
-                removal.shorten(edge, &mut self.new);
-                (edge, self.new.clone())
-            })
-            .collect::<Vec<_>>();
-        let rims: Vec<u8> = self.vertices.iter().map(|&v| removal.new_rim(v).unwrap_or(NOT_ON_RIM)).collect();
-        for (edge, portions) in chains.drain(..) {
-            certified.chains.set(edge, &portions);
-        }
-        certified.removed.clear(hole);
-        for (&v, rim) in self.vertices.iter().zip(rims) {
-            let slot = hole.slots[usize::from(self.labels.get(v).unwrap_or_default())];
-            certified.removed.add(v, slot);
-            certified.slot_of[v as usize] = slot;
-            certified.rim_corner[v as usize] = rim;
-        }
+        let edges = std::mem::take(&mut self.edges);
+        let new_chain = |&edge: &u32| {
+            self.reroute(removal, edge);
+            removal.shorten(edge, &mut self.new);
+            (edge, self.new.clone())
+        };
+        let chains = edges.iter().map(new_chain).collect();
+        self.edges = edges;
+        let assign = |&vertex: &u32| Assignment {
+            vertex,
+            label: self.labels.get(vertex).unwrap_or_default(),
+            rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
+        };
+        Change { assignments: removal.covered.vertices.iter().map(assign).collect(), chains }
     }
 
     /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared displacement, or the
     /// first above the limit.
     fn assign_vertices(&mut self, removal: Removal<'_>, limit_sq: f64) -> f64 {
-        let Removal { certified, surface, hole, filling } = removal;
+        let Removal { surface, hole, filling, covered, .. } = removal;
         self.tree.build(hole, filling);
         self.labels.start(surface.n_vertices());
-        self.vertices.clear();
-        self.vertices.extend(certified.vertices_in(hole));
         let mut largest_sq = 0.0_f64;
-        for &v in &self.vertices {
+        for (at, (&v, &p)) in covered.vertices.iter().zip(&covered.points).enumerate() {
             let (label, distance_sq) = match removal.rim_edge(v) {
-                Some(i) => (
-                    self.tree.at_ring_edge(i),
-                    point_segment_distance_sq(surface.point(v), removal.ring_edge(i)),
-                ),
-                None => removal.nearest(surface.point(v)),
+                Some(i) => (self.tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
+                None => removal.near(at, p, largest_sq),
             };
             self.labels.set(v, label);
             largest_sq = largest_sq.max(distance_sq);
@@ -147,12 +146,24 @@ impl Transfer {
         largest_sq
     }
 
-    /// Source edges of which any part is mapped into the hole, in ascending order.
+    /// Source edges whose chain, old or new, has more than one portion and passes through the hole; in ascending order.
     fn collect_edges(&mut self, removal: Removal<'_>) {
-        let Removal { certified, hole, .. } = removal;
+        let Removal { certified, hole, covered, .. } = removal;
         self.edges.clear();
-        for &v in &self.vertices {
-            self.edges.extend_from_slice(certified.source.at(v));
+        for &v in &covered.vertices {
+            let Some(label) = self.labels.get(v) else { continue };
+            for &edge in certified.source.at(v) {
+                let [low, high] = certified.source.ends(edge);
+                let other = low ^ high ^ v;
+                let is_moved = match self.labels.get(other) {
+                    _ if certified.chains.has(edge) => true,
+                    Some(other_label) => v < other && other_label != label,
+                    None => !removal.has_corner(label, other),
+                };
+                if is_moved {
+                    self.edges.push(edge);
+                }
+            }
         }
         for &slot in &hole.slots {
             self.edges.extend(certified.chains.edges_through(slot));
@@ -273,6 +284,24 @@ impl Removal<'_> {
             [NONE, NONE] => self.hole.slots[0],
             [NONE, slot] | [slot, _] => slot,
         }
+    }
+
+    /// A triangle near the covered vertex at index `at`, and its squared distance: the one that the vertex lies over
+    /// where that is no farther than `enough_sq`, the nearest one otherwise.
+    fn near(&self, at: usize, p: Vector, enough_sq: f64) -> (u8, f64) {
+        let is_over = |&(_, &triangle): &(u8, &[u8; 3])| self.covered.is_over(at, Over::new(triangle));
+        if let Some((label, _)) = (0..).zip(&self.filling.triangles).find(is_over) {
+            let distance_sq = point_triangle_distance_sq(p, &self.filling.triangle(self.hole, label.into()));
+            if distance_sq <= enough_sq {
+                return (label, distance_sq);
+            }
+        }
+        self.nearest(p)
+    }
+
+    /// Whether the filling's triangle `label` has the corner `v`.
+    fn has_corner(&self, label: u8, v: u32) -> bool {
+        self.filling.corners(self.hole, label.into()).contains(&v)
     }
 
     fn nearest(&self, p: Vector) -> (u8, f64) {

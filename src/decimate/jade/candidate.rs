@@ -1,15 +1,14 @@
 //! One vertex as a candidate for removal: its hole, the filling, and the errors that would follow.
 
 use super::classify::{Class, classify};
-use super::filling::Filling;
-use super::fit::{Covered, fit};
+use super::fit::fit;
 use super::flip::flip_edges;
-use super::hole::{Hole, NoHole};
 use super::triangulate::{Polygons, triangulate};
 use crate::bound::certified::{Certified, Transfer};
+use crate::bound::covered::Covered;
 use crate::bound::estimate::Estimate;
 use crate::bound::{Errors, GlobalError, Limits};
-use crate::mesh::{Seams, Surface};
+use crate::mesh::{Filling, Hole, NoHole, Seams, Surface};
 
 /// All that a candidate is judged by.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +44,8 @@ pub struct Scratch {
     /// Its filling, after [`Verdict::Removable`].
     pub filling: Filling,
     polygons: Polygons,
-    covered: Covered,
+    /// Input vertices over the hole.
+    pub covered: Covered,
     /// Buffers for carrying the certified map along.
     pub transfer: Transfer,
 }
@@ -98,11 +98,11 @@ fn judge_certified(
 ) -> Option<Errors> {
     let Scratch { hole, filling, polygons, covered, transfer } = scratch;
     let surface = situation.surface;
-    let points = certified.vertices_in(hole).map(|v| surface.point(v));
-    let is_fitted = covered.project(hole, points) && fit(surface, hole, class, covered, polygons, filling);
-    if !is_fitted && !triangulate(surface, hole, class, polygons, filling) {
-        return None;
-    }
-    let global = certified.bound(surface, hole, filling, limits.global, transfer);
+    covered.gather(surface, hole, certified.vertices_in(hole));
+    let global = match fit(surface, hole, class, covered, polygons, filling) {
+        Some(fitted_sq) if fitted_sq > limits.global * limits.global => fitted_sq.sqrt(),
+        None if !triangulate(surface, hole, class, polygons, filling) => return None,
+        _ => certified.bound(surface, hole, filling, covered, limits.global, transfer),
+    };
     Some(Errors { local: 0.0, global })
 }

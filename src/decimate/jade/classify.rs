@@ -5,9 +5,8 @@
 //! bound on the global error, which holds the tip by itself: a corner goes when the bound lets it go, without it no
 //! mesh with sharp features would ever reach its coarsest levels. Only corners of seams stay.
 
-use super::hole::Hole;
 use crate::geometry::vector::{dot, length_sq};
-use crate::mesh::{Seams, Surface};
+use crate::mesh::{Hole, Seams, Surface};
 
 /// What the star of a vertex looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Triangulating a polygon in the plane by cutting ears (JADE, section 6).
 
-use super::projection::{Point2, turn};
+use crate::geometry::projection::{Point2, turn};
 
 /// Which ear is cut next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,8 +66,8 @@ fn cosine([a, b, c]: [Point2; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::projection::polygon_area;
     use super::*;
+    use crate::geometry::projection::polygon_area;
     use proptest::prelude::*;
 
     #[test]
@@ -92,7 +92,7 @@ mod tests {
                 let angle = std::f64::consts::TAU * i as f64 / n as f64;
                 [r * angle.cos(), r * angle.sin()]
             }).collect();
-            prop_assume!(n > 4 || super::super::projection::is_simple(&polygon));
+            prop_assume!(n > 4 || crate::geometry::projection::is_simple(&polygon));
             let order = if first { EarOrder::First } else { EarOrder::MinimumAngle };
             let mut triangles = vec![];
             let mut corners: Vec<u8> = (0..).take(n).collect();

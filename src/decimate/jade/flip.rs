@@ -3,13 +3,11 @@
 //! The composed criterion of the paper: an inner edge is flipped when the volume between filling and removed vertex
 //! falls, the sampled local error falls, and the aspect ratio gets no worse than a stated part below the star's.
 
-use super::filling::Filling;
-use super::hole::Hole;
 use super::validity::{aspect, faces, worst_star_aspect};
 use crate::bound::accumulated::Sampler;
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{cross, dot, sub};
-use crate::mesh::Surface;
+use crate::mesh::{Filling, Hole, Surface};
 
 /// Flips inner edges while that helps. Each flip lowers the volume, so it ends; O(valence^2) flips at most.
 pub fn flip_edges(

@@ -9,12 +9,9 @@
 pub mod candidate;
 pub mod classify;
 pub mod ears;
-pub mod filling;
 pub mod fit;
 pub mod flip;
-pub mod hole;
 pub mod optimal;
-pub mod projection;
 pub mod rounds;
 pub mod thresholds;
 pub mod triangulate;

@@ -5,8 +5,7 @@
 //! 1980; there for the sum of edge lengths). Here a triangulation is as bad as its worst triangle, ties go to the
 //! smaller sum. A polygon of `n` corners has `n (n-1) (n-2) / 6` triangles, each scored once.
 
-/// Polygons of more corners than this are left to ear cutting: the triangles to score grow with the cube.
-pub const MAX_CORNERS: usize = 12;
+use crate::bound::covered::MAX_CORNERS;
 
 /// Worst score and sum of scores of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -26,11 +25,12 @@ impl Score {
 
 /// Triangulates the polygon `corners` with the least worst `score` and appends the triangles to `triangles`.
 ///
-/// `score` gives infinity for a triangle that may not be used, and must not be negative. Returns the worst score, or
+/// `score` gets a triangle and a cutoff, above which any value will do. It gives infinity for a triangle that may not be
+/// used, and is never negative. Returns the worst score, or
 /// `None` where every triangulation has a forbidden triangle. Panics never; polygons above [`MAX_CORNERS`] get `None`.
 pub fn triangulate_optimally(
     corners: &[u8],
-    mut score: impl FnMut([u8; 3]) -> f64,
+    mut score: impl FnMut([u8; 3], f64) -> f64,
     triangles: &mut Vec<[u8; 3]>,
 ) -> Option<f64> {
     let n = corners.len();
@@ -48,7 +48,7 @@ pub fn triangulate_optimally(
                 if sides.worst >= best[i][j].worst {
                     continue;
                 }
-                let own = score([corners[i], corners[k], corners[j]]);
+                let own = score([corners[i], corners[k], corners[j]], best[i][j].worst);
                 let whole = sides.with(Score { worst: own, sum: own });
                 if whole < best[i][j] {
                     (best[i][j], apex[i][j]) = (whole, k);
@@ -117,7 +117,7 @@ mod tests {
             let worst = |triangles: &[[u8; 3]]| triangles.iter().map(|&t| score(t)).fold(0.0, f64::max);
             let least = all(0, n - 1).iter().map(|t| worst(t)).fold(f64::INFINITY, f64::min);
             let mut triangles = vec![];
-            match triangulate_optimally(&corners, score, &mut triangles) {
+            match triangulate_optimally(&corners, |triangle, _| score(triangle), &mut triangles) {
                 None => prop_assert!(least.is_infinite()),
                 Some(found) => {
                     prop_assert_eq!(found, least);

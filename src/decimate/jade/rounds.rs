@@ -1,13 +1,11 @@
 //! The driver: iterations under rising limits, and in each of them rounds over an independent set.
 
 use super::candidate::{Scratch, Situation, Verdict, judge};
-use super::filling::Filling;
-use super::hole::Hole;
 use super::thresholds::Thresholds;
 use crate::bound::accumulated::round_up;
 use crate::bound::{GlobalError, Limits};
 use crate::history::Recorder;
-use crate::mesh::{Seams, Surface};
+use crate::mesh::{Filling, Hole, Seams, Surface};
 use rayon::prelude::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -214,11 +212,11 @@ fn remove_all(
 /// Removes one vertex: record, errors, mesh, in this order, since each needs the star as it was.
 fn remove(decimation: &mut Decimation, scratch: &mut Scratch, step_error: f64) {
     let Decimation { surface, seams, error, recorder, .. } = decimation;
-    let Scratch { hole, filling, transfer, .. } = scratch;
+    let Scratch { hole, filling, covered, transfer, .. } = scratch;
     recorder.step(step_error);
     let dying = |slot: u32| seams.as_ref().map_or_else(|| surface.corners(slot), |seams| seams.corners(slot));
     hole.slots.iter().for_each(|&slot| recorder.death(slot, dying(slot)));
-    error.commit(surface, hole, filling, transfer);
+    error.commit(surface, hole, filling, covered, transfer);
     let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
     let vertices = seams.as_ref().map(|seams| seam_vertices(surface, seams, hole, filling));
     match &vertices {

@@ -6,11 +6,9 @@
 
 use super::classify::Class;
 use super::ears::{EarOrder, cut_ears};
-use super::filling::Filling;
-use super::hole::Hole;
-use super::projection::{Plane, Point2, is_simple, plane_normals, polygon_area};
 use super::validity::is_valid;
-use crate::mesh::Surface;
+use crate::geometry::projection::{Plane, Point2, is_simple, plane_normals, polygon_area};
+use crate::mesh::{Filling, Hole, Surface};
 
 /// Buffers of the triangulation, reused from hole to hole.
 #[derive(Clone, Debug, Default)]

@@ -1,10 +1,8 @@
 //! The five tests in space that a filling must pass (JADE, section 6).
 
-use super::filling::Filling;
-use super::hole::Hole;
 use crate::geometry::distance::{Triangle, segment_segment_distance_sq};
 use crate::geometry::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
-use crate::mesh::Surface;
+use crate::mesh::{Filling, Hole, Surface};
 
 /// Triangles of a shape worse than this are refused, unless the star they replace had one as bad.
 pub const WORST_ASPECT: f64 = 0.02;

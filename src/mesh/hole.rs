@@ -7,8 +7,8 @@
 //!     \    v     \                  a boundary vertex: the ring is a chain, the edge last-first will be new
 //! ```
 
-use crate::geometry::vector::{Vector, cross, sub};
-use crate::mesh::Surface;
+use super::Surface;
+use crate::geometry::vector::{Vector, add, cross, sub};
 
 /// Stars of more triangles are left alone until their neighbours have gone; also what a `u8` ring index must hold.
 pub const MAX_VALENCE: usize = 64;
@@ -146,8 +146,7 @@ impl Hole {
     pub fn average_normal(&self) -> Vector {
         let mut sum = [0.0; 3];
         for i in 0..self.slots.len() {
-            let normal = self.normal(i);
-            sum = crate::geometry::vector::add(sum, normal);
+            sum = add(sum, self.normal(i));
         }
         sum
     }

@@ -1,6 +1,6 @@
 //! The triangles that close a hole.
 
-use super::hole::Hole;
+use super::Hole;
 use crate::geometry::vector::Vector;
 
 /// Triangles over ring indices, each in the order of the ring and so oriented like the star it replaces.
