@@ -31,11 +31,6 @@ impl Faces {
         self.triangles.push(triangle);
     }
 
-    /// Appends triangles.
-    pub(crate) fn extend_triangles(&mut self, triangles: impl IntoIterator<Item = [u32; 3]>) {
-        self.triangles.extend(triangles);
-    }
-
     /// Appends a face of any number of corners; fewer than three are counted and dropped.
     pub(crate) fn push(&mut self, corners: &[u32]) {
         match *corners {
@@ -61,11 +56,6 @@ impl Faces {
                 self.triangles.push(if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
             }
         }
-    }
-
-    /// Counts faces that have no three corners.
-    pub(crate) fn drop_faces(&mut self, n_faces: usize) {
-        self.n_dropped += n_faces;
     }
 
     /// All faces as triangles in file order, polygons cut; every index must be below `positions.len()`. Counts go to `report`.

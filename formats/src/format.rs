@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::publish::publish;
 use crate::text::{Scanner, Style};
-use crate::{MeshError, ReadReport, TriangleMesh, Warning, obj, ply};
+use crate::{MeshError, ReadReport, TriangleMesh, Warning, gltf, obj, off, ply, stl};
 
 /// A mesh file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -57,7 +57,7 @@ impl MeshFormat {
     ///
     /// Looks at no more than the beginning and the length.
     pub fn detect(bytes: &[u8], extension: Option<Self>) -> Option<Self> {
-        let is_sized_stl = stl_length(bytes) == Some(bytes.len() as u64);
+        let is_sized_stl = stl::length_of_binary(bytes) == Some(bytes.len() as u64);
         if is_sized_stl && extension == Some(Self::Stl) {
             return extension;
         }
@@ -101,7 +101,7 @@ fn read_file(path: &Path) -> Result<(TriangleMesh, ReadReport), MeshError> {
     let bytes = std::fs::read(path)?;
     let extension = MeshFormat::from_path(path);
     let format = MeshFormat::detect(&bytes, extension).ok_or(MeshError::UnknownFormat)?;
-    let (mesh, mut report) = read_mesh_bytes(&bytes, format)?;
+    let (mesh, mut report) = read_bytes(&bytes, format, path.parent())?;
     if let Some(extension) = extension.filter(|&extension| extension != format) {
         report.warnings.push(Warning::ExtensionDisagrees { extension, format });
     }
@@ -114,10 +114,20 @@ fn read_file(path: &Path) -> Result<(TriangleMesh, ReadReport), MeshError> {
 ///
 /// Any [`MeshError`] about contents; also for glTF that refers to other files, as there is no folder to look in.
 pub fn read_mesh_bytes(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, ReadReport), MeshError> {
+    read_bytes(bytes, format, None)
+}
+
+fn read_bytes(
+    bytes: &[u8],
+    format: MeshFormat,
+    folder: Option<&Path>,
+) -> Result<(TriangleMesh, ReadReport), MeshError> {
     match format {
         MeshFormat::Ply => ply::read(bytes),
         MeshFormat::Obj => obj::read(bytes),
-        _ => Err(MeshError::UnknownFormat),
+        MeshFormat::Stl => stl::read(bytes),
+        MeshFormat::Off => off::read(bytes),
+        MeshFormat::Gltf | MeshFormat::Glb => gltf::read(bytes, format, folder),
     }
 }
 
@@ -152,14 +162,11 @@ pub fn write_mesh_to(out: &mut dyn Write, mesh: &TriangleMesh, format: MeshForma
     match format {
         MeshFormat::Ply => ply::write(mesh, out),
         MeshFormat::Obj => obj::write(mesh, out),
-        _ => Err(MeshError::UnknownExtension { extension: format.extension().into() }),
+        MeshFormat::Stl => stl::write(mesh, out),
+        MeshFormat::Off => off::write(mesh, out),
+        MeshFormat::Glb => gltf::write(mesh, out),
+        MeshFormat::Gltf => Err(MeshError::UnknownExtension { extension: format.extension().into() }),
     }
-}
-
-/// The length that a binary STL file of the triangle count in these bytes would have.
-fn stl_length(bytes: &[u8]) -> Option<u64> {
-    let count = u32::from_le_bytes(*bytes.get(80..)?.first_chunk()?);
-    Some(84 + 50 * u64::from(count))
 }
 
 /// The format whose first word, after comments, stands at the beginning.
@@ -169,9 +176,7 @@ fn first_word_format(bytes: &[u8]) -> Option<MeshFormat> {
     if word.starts_with(b"{") {
         return Some(MeshFormat::Gltf);
     }
-    let prefixes = ["", "C", "N", "CN", "ST", "STC", "STN", "STCN", "4", "n"];
-    let word = word.strip_suffix(b"OFF")?;
-    prefixes.iter().any(|prefix| word == prefix.as_bytes()).then_some(MeshFormat::Off)
+    off::Keyword::parse(word).map(|_| MeshFormat::Off)
 }
 
 /// STL or OBJ by the words that text in them begins with.

@@ -1,19 +1,19 @@
 //! Mesh files read and written for nephrite, and the records of its `.neph` file.
 
 mod attributes;
-#[cfg_attr(not(test), expect(dead_code, reason = "parts for the readers that follow"))]
 mod coordinates;
 mod error;
-#[expect(dead_code, reason = "parts for the readers that follow")]
 mod faces;
 mod format;
+mod gltf;
 pub mod mesh;
 mod obj;
+mod off;
 mod ply;
 mod polygon;
 mod publish;
 mod report;
-#[expect(dead_code, reason = "parts for the readers that follow")]
+mod stl;
 mod text;
 
 pub use error::{MeshError, Place};

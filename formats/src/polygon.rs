@@ -7,11 +7,11 @@
 //!
 //! The polygon is seen along the axis nearest to its normal (M. E. Newell's: areas of the shadows on the coordinate planes),
 //! which keeps the coordinates as exact as they are. Only reflex and flat corners can block an ear; they are sorted
-//! along one axis so that a small ear looks at few. The work per corner is bounded, so a hostile polygon costs time in
-//! proportion to its corners, and a polygon that crosses itself ends in a fan.
+//! along both axes, and the one along which an ear spans fewer of them is searched. The work per corner is bounded, so a
+//! hostile polygon costs time in proportion to its corners; what is left when the bound is met, or when a polygon that
+//! crosses itself has no ear, becomes a fan.
 
 /// Cuts polygons into triangles, keeping its buffers from one to the next.
-#[derive(Default)]
 pub(crate) struct Triangulator {
     /// Corners seen along the axis nearest to the normal, counter-clockwise.
     flat: Vec<[f64; 2]>,
@@ -19,21 +19,36 @@ pub(crate) struct Triangulator {
     next: Vec<usize>,
     previous: Vec<usize>,
     is_cut: Vec<bool>,
-    /// Corners that are not strictly convex, by ascending first coordinate.
-    blockers: Vec<usize>,
-    /// Corners that may still be looked at before the rest becomes a fan.
+    /// Corners that are not strictly convex, by ascending first and by ascending second coordinate.
+    blockers: [Vec<usize>; 2],
+    /// Corners that may still be looked at before the rest becomes a fan. Every polygon adds to it; what it does not use is left
+    /// for the next, so that all polygons together take at most time in proportion to their corners, and a constant.
     budget: usize,
 }
 
-/// Corners looked at per corner cut, on the average, before giving up.
+/// Corners looked at per corner, on the average over all polygons, before giving up; and how many more once (half a second).
 const LOOKS_PER_CORNER: usize = 1024;
+const LOOKS_AT_FIRST: usize = 1 << 29;
+
+impl Default for Triangulator {
+    fn default() -> Self {
+        Self {
+            flat: Vec::new(),
+            next: Vec::new(),
+            previous: Vec::new(),
+            is_cut: Vec::new(),
+            blockers: Default::default(),
+            budget: LOOKS_AT_FIRST,
+        }
+    }
+}
 
 impl Triangulator {
     /// Appends the `n - 2` triangles of a polygon of `n >= 3` corners, as places in `corners`, in the polygon's sense of rotation.
     ///
     /// Returns whether all of them have the polygon's orientation: for a polygon that does not cross itself they then tile it
-    /// exactly, because their oriented areas add up to the polygon at every point of the plane. Costs about n log n, at most
-    /// 1024 n.
+    /// exactly, because their oriented areas add up to the polygon at every point of the plane. Costs about n log n for the
+    /// polygons of real files, n^2 for hostile ones until the bound on work is met.
     pub(crate) fn triangulate(&mut self, corners: &[[f32; 3]], triangles: &mut Vec<[usize; 3]>) -> bool {
         match corners.len() {
             0..=2 => true,
@@ -71,15 +86,15 @@ impl Triangulator {
         self.previous.extend([n_corners - 1].into_iter().chain(0..n_corners - 1));
         self.is_cut.clear();
         self.is_cut.resize(n_corners, false);
-        self.blockers.clear();
         let (flat, previous, next) = (&self.flat, &self.previous, &self.next);
-        self.blockers.extend(
-            (0..n_corners).filter(|&corner| {
-                orientation(flat[previous[corner]], flat[corner], flat[next[corner]]) <= 0.0
-            }),
-        );
-        self.blockers.sort_by(|&a, &b| flat[a][0].total_cmp(&flat[b][0]));
-        self.budget = LOOKS_PER_CORNER * n_corners;
+        let blocks =
+            |&corner: &usize| orientation(flat[previous[corner]], flat[corner], flat[next[corner]]) <= 0.0;
+        for (axis, blockers) in self.blockers.iter_mut().enumerate() {
+            blockers.clear();
+            blockers.extend((0..n_corners).filter(blocks));
+            blockers.sort_by(|&a, &b| flat[a][axis].total_cmp(&flat[b][axis]));
+        }
+        self.budget = self.budget.saturating_add(LOOKS_PER_CORNER * n_corners);
     }
 
     /// Walks around the ring cutting ears, and fans what has none.
@@ -122,27 +137,34 @@ impl Triangulator {
         if orientation(a, b, c) <= 0.0 {
             return false;
         }
-        let low = a[0].min(b[0]).min(c[0]);
-        let high = a[0].max(b[0]).max(c[0]);
-        let start = self.blockers.partition_point(|&corner| self.flat[corner][0] < low);
-        for &blocker in &self.blockers[start..] {
+        let blocks = |&blocker: &usize| {
             let point = self.flat[blocker];
-            if point[0] > high || self.budget == 0 {
-                break;
-            }
-            self.budget -= 1;
             // Corners in one place with a corner of the ear are the two sides of a cut made to reach a hole.
             let is_apart = point != a && point != b && point != c;
-            let is_inside = || {
-                orientation(a, b, point) >= 0.0
-                    && orientation(b, c, point) >= 0.0
-                    && orientation(c, a, point) >= 0.0
-            };
-            if is_apart && !self.is_cut[blocker] && is_inside() {
-                return false;
-            }
-        }
-        true
+            is_apart
+                && !self.is_cut[blocker]
+                && orientation(a, b, point) >= 0.0
+                && orientation(b, c, point) >= 0.0
+                && orientation(c, a, point) >= 0.0
+        };
+        let near = self.blockers_near([a, b, c]);
+        let first = near.iter().take(self.budget).position(blocks);
+        self.budget = self.budget.saturating_sub(first.map_or(near.len(), |place| place + 1));
+        first.is_none()
+    }
+
+    /// The corners that can block which lie beside a triangle along one axis, the axis that leaves fewer.
+    fn blockers_near(&self, triangle: [[f64; 2]; 3]) -> &[usize] {
+        let [along_first, along_second] = [0, 1].map(|axis| {
+            let values = triangle.map(|corner| corner[axis]);
+            let low = values.into_iter().fold(f64::INFINITY, f64::min);
+            let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            let sorted = &self.blockers[axis];
+            let start = sorted.partition_point(|&corner| self.flat[corner][axis] < low);
+            let length = sorted[start..].partition_point(|&corner| self.flat[corner][axis] <= high);
+            &sorted[start..start + length]
+        });
+        if along_first.len() <= along_second.len() { along_first } else { along_second }
     }
 }
 
@@ -295,6 +317,25 @@ mod tests {
         let line: Vec<[f32; 2]> = (0..6_u8).map(|i| [f32::from(i), 0.0]).collect();
         assert_eq!(triangulate(&line).0.len(), 4);
         triangulate(&[[1.0, 1.0]; 9]);
+    }
+
+    #[test]
+    fn large_polygons_are_tiled_within_the_bound_on_work() {
+        let n_teeth = 20_000_u16;
+        let comb: Vec<[f32; 2]> = (0..n_teeth)
+            .rev()
+            .map(|i| 10.0 * f32::from(i) / f32::from(n_teeth))
+            .flat_map(|x| [[x + 2e-4, 0.0], [x, 10.0]])
+            .chain([[0.0, -1.0], [10.0, -1.0]])
+            .collect();
+        check_tiles(&comb);
+        let turned: Vec<[f32; 2]> = comb.iter().map(|&[x, y]| [-y, x]).collect();
+        check_tiles(&turned);
+        let star: Vec<[f32; 2]> = (0..40_000_u16)
+            .map(|i| (f32::from(i) / 40_000.0 * std::f32::consts::TAU, 1.0 + f32::from(i % 2)))
+            .map(|(angle, radius)| [1000.0 * radius * angle.cos(), 1000.0 * radius * angle.sin()])
+            .collect();
+        check_tiles(&star);
     }
 
     #[test]

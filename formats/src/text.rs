@@ -6,6 +6,7 @@
 use crate::error::{MeshError, Place, excerpt};
 
 /// A position in a text.
+#[derive(Clone)]
 pub(crate) struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -37,11 +38,6 @@ impl<'a> Scanner<'a> {
     /// Where the scanner is.
     pub(crate) fn place(&self) -> Place {
         Place::Line(self.line)
-    }
-
-    /// Offset of the next byte.
-    pub(crate) fn offset(&self) -> usize {
-        self.at
     }
 
     /// Bytes not yet read.

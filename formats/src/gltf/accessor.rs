@@ -1,0 +1,224 @@
+//! Accessors: typed views of buffers, copied out tightly packed after every offset has been checked.
+
+use std::borrow::Cow;
+
+use super::buffers::Buffers;
+use super::document::{BufferView, Document, Sparse};
+use crate::ScalarType;
+use crate::error::{MeshError, Place};
+
+/// A document with the bytes it refers to.
+pub(crate) struct Source<'a> {
+    pub document: &'a Document,
+    pub buffers: &'a Buffers<'a>,
+    /// Bytes of the document and its buffers together, which bound what may be allocated.
+    pub n_bytes: u64,
+}
+
+/// The elements of an accessor, one after another without gaps, little-endian.
+pub(crate) struct Elements<'a> {
+    pub scalar: ScalarType,
+    pub n_components: u32,
+    /// Integers stand for fractions of their type's largest value.
+    pub is_normalized: bool,
+    pub count: u32,
+    pub bytes: Cow<'a, [u8]>,
+}
+
+impl<'a> Source<'a> {
+    /// Number of elements of an accessor, without looking at its bytes.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::IndexOutOfRange`] where there is no such accessor.
+    pub(crate) fn count(&self, accessor: usize) -> Result<u64, MeshError> {
+        Ok(get(&self.document.accessors, accessor, "accessor", Place::File)?.count)
+    }
+
+    /// Copies out an accessor's elements, or borrows them where they are packed already.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError`] with the accessor at fault, for anything that reaches outside of what holds it.
+    pub(crate) fn elements(&self, index: usize) -> Result<Elements<'a>, MeshError> {
+        let accessor = get(&self.document.accessors, index, "accessor", Place::File)?;
+        let place = Place::item("accessor", index);
+        let scalar = accessor.component_type.0;
+        if accessor.shape.is_matrix() && scalar.size_bytes() < 4 {
+            return Err(MeshError::Unsupported { place, feature: "a matrix of small integers".into() });
+        }
+        // Without a view all elements are zero; so many must at least be backed by bytes somewhere.
+        let limit = self.n_bytes.min(u32::MAX.into());
+        let count = u32::try_from(accessor.count).ok().filter(|_| accessor.count <= limit);
+        let too_large = MeshError::CountTooLarge { place, what: "elements", count: accessor.count, limit };
+        let count = count.ok_or(too_large)?;
+        let n_components = accessor.shape.n_components();
+        let element_bytes = n_components as usize * scalar.size_bytes();
+        let mut bytes = match accessor.buffer_view {
+            Some(view) => self.packed(view, accessor.byte_offset, (accessor.count, element_bytes), place)?,
+            None => Cow::Owned(vec![0; count as usize * element_bytes]),
+        };
+        if let Some(sparse) = &accessor.sparse {
+            self.replace(sparse, count, element_bytes, bytes.to_mut(), place)?;
+        }
+        Ok(Elements { scalar, n_components, is_normalized: accessor.normalized, count, bytes })
+    }
+
+    /// Elements of a view without the gaps of its stride.
+    fn packed(
+        &self,
+        view: usize,
+        byte_offset: u64,
+        (count, element_bytes): (u64, usize),
+        place: Place,
+    ) -> Result<Cow<'a, [u8]>, MeshError> {
+        let (view, contents) = self.view(view, place)?;
+        let stride = view.byte_stride.unwrap_or(element_bytes as u64);
+        if stride < element_bytes as u64 {
+            let expected = "a stride of an element's size at least";
+            return Err(MeshError::Unexpected { place, expected, found: format!("{stride}") });
+        }
+        let Some(last) = count.checked_sub(1) else { return Ok(Cow::Borrowed(&[])) };
+        let end = last.checked_mul(stride).and_then(|last| last.checked_add(byte_offset));
+        let expected = end.and_then(|end| end.checked_add(element_bytes as u64)).unwrap_or(u64::MAX);
+        let found = contents.len() as u64;
+        let truncated = MeshError::Truncated { place, what: "data", expected, found };
+        if expected > found {
+            return Err(truncated);
+        }
+        // Both fit, as they are at most the length of a slice.
+        let [start, end] =
+            [byte_offset, expected].map(|offset| usize::try_from(offset).unwrap_or(usize::MAX));
+        let data = &contents[start..end];
+        if stride == element_bytes as u64 {
+            return Ok(Cow::Borrowed(data));
+        }
+        let stride = usize::try_from(stride).unwrap_or(usize::MAX);
+        let elements = data.chunks(stride).map(|chunk| &chunk[..element_bytes]);
+        Ok(Cow::Owned(elements.collect::<Vec<_>>().concat()))
+    }
+
+    /// The contents of a view.
+    fn view(&self, index: usize, place: Place) -> Result<(&'a BufferView, &'a [u8]), MeshError> {
+        let view = get(&self.document.buffer_views, index, "buffer view", place)?;
+        let place = Place::item("buffer view", index);
+        get(&self.document.buffers, view.buffer, "buffer", place)?;
+        let Some(contents) = self.buffers.get(view.buffer) else {
+            let compression = view.extensions.keys().find(|name| name.ends_with("meshopt_compression"));
+            return Err(match compression {
+                Some(name) => MeshError::Unsupported { place, feature: name.clone() },
+                None => MeshError::Missing { place: Place::item("buffer", view.buffer), what: "contents" },
+            });
+        };
+        let end = view.byte_offset.saturating_add(view.byte_length);
+        let range = usize::try_from(view.byte_offset).ok().zip(usize::try_from(end).ok());
+        let found = contents.len() as u64;
+        let truncated = MeshError::Truncated { place, what: "data", expected: end, found };
+        Ok((view, range.and_then(|(start, end)| contents.get(start..end)).ok_or(truncated)?))
+    }
+
+    /// Puts the elements of a sparse accessor in their places.
+    fn replace(
+        &self,
+        sparse: &Sparse,
+        count: u32,
+        element_bytes: usize,
+        bytes: &mut [u8],
+        place: Place,
+    ) -> Result<(), MeshError> {
+        let limit = u64::from(count);
+        if sparse.count > limit {
+            let what = "sparse elements";
+            return Err(MeshError::CountTooLarge { place, what, count: sparse.count, limit });
+        }
+        let scalar = sparse.indices.component_type.0;
+        let index_shape = (sparse.count, scalar.size_bytes());
+        let indices =
+            self.packed(sparse.indices.buffer_view, sparse.indices.byte_offset, index_shape, place)?;
+        let value_shape = (sparse.count, element_bytes);
+        let values = self.packed(sparse.values.buffer_view, sparse.values.byte_offset, value_shape, place)?;
+        let indices = unsigned_values(scalar, &indices).ok_or(MeshError::Unexpected {
+            place,
+            expected: "unsigned sparse indices",
+            found: format!("{scalar:?}"),
+        })?;
+        for (index, value) in indices.zip(values.chunks_exact(element_bytes)) {
+            let start = index as usize * element_bytes;
+            let what = "sparse element";
+            let out_of_range = MeshError::IndexOutOfRange { place, what, index: index.into(), count: limit };
+            bytes.get_mut(start..start + element_bytes).ok_or(out_of_range)?.copy_from_slice(value);
+        }
+        Ok(())
+    }
+}
+
+impl Elements<'_> {
+    /// All components as numbers, normalized ones as fractions.
+    pub(crate) fn values(&self) -> impl Iterator<Item = f64> {
+        let largest = match self.scalar {
+            _ if !self.is_normalized => 1.0,
+            ScalarType::I8 => i8::MAX.into(),
+            ScalarType::U8 => u8::MAX.into(),
+            ScalarType::I16 => i16::MAX.into(),
+            ScalarType::U16 => u16::MAX.into(),
+            _ => 1.0,
+        };
+        // The lowest signed integer would be below -1 by one step.
+        let lowest = if self.is_normalized { -1.0 } else { f64::MIN };
+        let size_bytes = self.scalar.size_bytes();
+        self.bytes.chunks_exact(size_bytes).map(move |bytes| {
+            let mut wide = [0; 4];
+            wide[..size_bytes].copy_from_slice(bytes);
+            let [a, b, ..] = wide;
+            let value: f64 = match self.scalar {
+                ScalarType::I8 => i8::from_le_bytes([a]).into(),
+                ScalarType::U8 => a.into(),
+                ScalarType::I16 => i16::from_le_bytes([a, b]).into(),
+                ScalarType::U16 => u16::from_le_bytes([a, b]).into(),
+                ScalarType::U32 => u32::from_le_bytes(wide).into(),
+                _ => return f64::from(f32::from_le_bytes(wide)),
+            };
+            (value / largest).max(lowest)
+        })
+    }
+
+    /// All values as indices; `None` for other than unsigned scalars.
+    pub(crate) fn indices(&self) -> Option<Vec<u32>> {
+        if self.n_components != 1 {
+            return None;
+        }
+        Some(unsigned_values(self.scalar, &self.bytes)?.collect())
+    }
+}
+
+/// Packed unsigned integers of any width; `None` for other types.
+fn unsigned_values(scalar: ScalarType, bytes: &[u8]) -> Option<Box<dyn Iterator<Item = u32> + '_>> {
+    Some(match scalar {
+        ScalarType::U8 => Box::new(bytes.iter().map(|&byte| byte.into())),
+        ScalarType::U16 => {
+            Box::new(bytes.as_chunks().0.iter().map(|&bytes| u16::from_le_bytes(bytes).into()))
+        }
+        ScalarType::U32 => Box::new(bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes))),
+        _ => return None,
+    })
+}
+
+/// An item of a document's list.
+///
+/// # Errors
+///
+/// [`MeshError::IndexOutOfRange`] at `place`, which refers to it.
+pub(crate) fn get<'a, T>(
+    list: &'a [T],
+    index: usize,
+    what: &'static str,
+    place: Place,
+) -> Result<&'a T, MeshError> {
+    let out_of_range = MeshError::IndexOutOfRange {
+        place,
+        what,
+        index: i64::try_from(index).unwrap_or(i64::MAX),
+        count: list.len() as u64,
+    };
+    list.get(index).ok_or(out_of_range)
+}
