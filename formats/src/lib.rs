@@ -7,6 +7,7 @@ mod faces;
 mod format;
 mod gltf;
 pub mod mesh;
+pub mod neph;
 mod obj;
 mod off;
 mod ply;

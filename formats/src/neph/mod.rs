@@ -1,0 +1,28 @@
+//! The `.neph` file: its records and the rules that tie them together. `SPEC.md` beside this crate is the description;
+//! names here follow it.
+//!
+//! The engine writes a file by [`plan`]ning its sections and streaming them through a [`ChunkHasher`], and reads one by
+//! checking its [`Directory`], which touches the first 16 KiB and nothing else.
+
+mod attribute;
+mod checksum;
+mod directory;
+mod error;
+mod header;
+mod section;
+
+pub use attribute::{
+    AttributeEntry, AttributeRecord, MAX_ATTRIBUTE_NAMES_BYTES, MAX_ATTRIBUTES, read_attributes, scalar_code,
+    scalar_from_code,
+};
+pub use checksum::{ChunkHasher, checksum, head_checksum};
+pub use directory::Directory;
+pub use error::NephError;
+pub use header::{CHUNK_BYTES, HEADER_BYTES, Header, MAGIC, MAX_HEAD_BYTES, MAX_LEVELS, VERSION};
+pub use section::{
+    MAX_METADATA_BYTES, Placement, REQUIRED, SECTION_ALIGNMENT, SECTION_RECORD_BYTES, SectionKind,
+    SectionRecord, align, plan,
+};
+
+#[cfg(target_endian = "big")]
+compile_error!("the records of a .neph file are little-endian and are read in place");
