@@ -7,9 +7,13 @@ pub mod generate;
 pub mod geometry;
 pub mod history;
 pub mod mesh;
+pub mod query;
+pub mod store;
+pub mod tree;
 
 pub use build::{
     Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, bounding_diagonal, build,
 };
 pub use history::History;
 pub use nephrite_formats::{Attribute, ScalarType, TriangleMesh};
+pub use query::{Cut, Lod};

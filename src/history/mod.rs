@@ -4,8 +4,12 @@
 //! at step `s` when `birth <= s < death`; the simplices with `death == s` are exactly those that the ones with
 //! `birth == s` replaced. Nothing here knows which decimator ran.
 
+mod check;
+mod levels;
 mod recorder;
 
+pub use check::HistoryError;
+pub use levels::{LEVEL_RATIO, Levels};
 pub use recorder::Recorder;
 
 /// Death of whatever is still alive when the decimator stops.

@@ -1,0 +1,199 @@
+//! Whether a history is one: what every later stage relies on.
+
+use super::{History, NEVER};
+
+/// A history that breaks an invariant, by whoever recorded it.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum HistoryError {
+    /// Parallel arrays differ in length.
+    #[error("{array} has {found} entries, expected {expected}")]
+    Length {
+        /// Name of the array.
+        array: &'static str,
+        /// Its length.
+        found: u64,
+        /// Length of the array it belongs to.
+        expected: u64,
+    },
+    /// More simplices, vertices or steps than 32 bits count.
+    #[error("{found} {what} exceed the range of 32-bit ids")]
+    TooMany {
+        /// `simplices`, `vertices` or `steps`.
+        what: &'static str,
+        /// How many.
+        found: u64,
+    },
+    /// No step at all, not even step 0.
+    #[error("error table is empty")]
+    NoSteps,
+    /// An error is negative or not finite, or the table falls.
+    #[error("error of step {step} is {found} after {before}")]
+    Error {
+        /// Which step.
+        step: u32,
+        /// Its error.
+        found: f64,
+        /// Error of the step before, or zero.
+        before: f64,
+    },
+    /// A simplex dies before it is born, or lives outside the steps.
+    #[error("simplex {simplex} has the lifetime [{birth}, {death}) in {n_steps} steps")]
+    Lifetime {
+        /// Which simplex.
+        simplex: u32,
+        /// Its birth.
+        birth: u32,
+        /// Its death.
+        death: u32,
+        /// Last step.
+        n_steps: u32,
+    },
+    /// A simplex uses a vertex that is not there for all of its life.
+    #[error("simplex {simplex} lives until step {death}, its vertex {vertex} until {vertex_death:?}")]
+    Vertex {
+        /// Which simplex.
+        simplex: u32,
+        /// Its death.
+        death: u32,
+        /// The vertex.
+        vertex: u32,
+        /// Death of the vertex, or nothing where there is no such vertex.
+        vertex_death: Option<u32>,
+    },
+    /// A vertex dies at step 0.
+    #[error("vertex {vertex} is dead in the input")]
+    DeadVertex {
+        /// Which vertex.
+        vertex: u32,
+    },
+    /// A level has more simplices than the one before it.
+    #[error("step {step} has {found} simplices, more than the {before} of the level before it")]
+    Grows {
+        /// Step of the level.
+        step: u32,
+        /// Simplices alive.
+        found: u32,
+        /// Simplices alive at the level before.
+        before: u32,
+    },
+}
+
+impl<const CORNERS: usize> History<CORNERS> {
+    /// Steps after the input: the last index into `errors`, 0 for an empty table.
+    pub fn n_steps(&self) -> u32 {
+        u32::try_from(self.errors.len().saturating_sub(1)).unwrap_or(u32::MAX)
+    }
+
+    /// Checks every invariant of [`History`]. Cost: one pass.
+    ///
+    /// # Errors
+    ///
+    /// The first invariant that is broken.
+    pub fn check(&self) -> Result<(), HistoryError> {
+        self.check_lengths()?;
+        self.check_errors()?;
+        for (vertex, &death) in (0..).zip(&self.vertex_death) {
+            if death == 0 {
+                return Err(HistoryError::DeadVertex { vertex });
+            }
+        }
+        let n_steps = self.n_steps();
+        let lifetimes = self.birth.iter().zip(&self.death);
+        for (simplex, (vertices, (&birth, &death))) in (0..).zip(self.simplices.iter().zip(lifetimes)) {
+            if birth >= death || birth > n_steps || (death > n_steps && death != NEVER) {
+                return Err(HistoryError::Lifetime { simplex, birth, death, n_steps });
+            }
+            for &vertex in vertices {
+                let vertex_death = self.vertex_death.get(vertex as usize).copied();
+                if vertex_death.is_none_or(|vertex_death| vertex_death < death) {
+                    return Err(HistoryError::Vertex { simplex, death, vertex, vertex_death });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_lengths(&self) -> Result<(), HistoryError> {
+        let expected = self.simplices.len() as u64;
+        for (array, len) in [("birth", self.birth.len()), ("death", self.death.len())] {
+            let found = len as u64;
+            if found != expected {
+                return Err(HistoryError::Length { array, found, expected });
+            }
+        }
+        let lengths = [
+            ("simplices", self.simplices.len()),
+            ("vertices", self.vertex_death.len()),
+            ("steps", self.errors.len()),
+        ];
+        for (what, len) in lengths {
+            let found = len as u64;
+            // NEVER must stay distinct from every step.
+            if found >= u64::from(NEVER) {
+                return Err(HistoryError::TooMany { what, found });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_errors(&self) -> Result<(), HistoryError> {
+        if self.errors.is_empty() {
+            return Err(HistoryError::NoSteps);
+        }
+        let mut before = 0.0;
+        for (step, &found) in (0..).zip(&self.errors) {
+            if !found.is_finite() || found < before {
+                return Err(HistoryError::Error { step, found, before });
+            }
+            before = found;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quad_to_triangle() -> History<3> {
+        History {
+            simplices: vec![[0, 1, 2], [0, 2, 3], [0, 1, 3]],
+            birth: vec![0, 0, 1],
+            death: vec![1, 1, NEVER],
+            vertex_death: vec![NEVER, NEVER, 1, NEVER],
+            errors: vec![0.0, 0.5],
+        }
+    }
+
+    #[test]
+    fn each_broken_invariant_is_named() {
+        assert_eq!(quad_to_triangle().check(), Ok(()));
+        let broken = |break_it: fn(&mut History<3>)| {
+            let mut history = quad_to_triangle();
+            break_it(&mut history);
+            history.check().unwrap_err()
+        };
+        let lifetime = |simplex, birth, death| HistoryError::Lifetime { simplex, birth, death, n_steps: 1 };
+        assert_eq!(
+            broken(|h| h.birth.truncate(2)),
+            HistoryError::Length { array: "birth", found: 2, expected: 3 }
+        );
+        assert_eq!(broken(|h| h.errors.clear()), HistoryError::NoSteps);
+        assert_eq!(broken(|h| h.errors[0] = 0.75), HistoryError::Error { step: 1, found: 0.5, before: 0.75 });
+        assert!(matches!(broken(|h| h.errors[1] = f64::NAN), HistoryError::Error { step: 1, .. }));
+        assert!(matches!(broken(|h| h.errors[0] = -1.0), HistoryError::Error { step: 0, .. }));
+        assert_eq!(broken(|h| h.birth[0] = 1), lifetime(0, 1, 1));
+        assert_eq!(broken(|h| h.death[1] = 2), lifetime(1, 0, 2));
+        assert_eq!(broken(|h| h.birth[2] = 2), lifetime(2, 2, NEVER));
+        assert_eq!(
+            broken(|h| h.simplices[2][1] = 9),
+            HistoryError::Vertex { simplex: 2, death: NEVER, vertex: 9, vertex_death: None }
+        );
+        assert_eq!(
+            broken(|h| h.simplices[2][1] = 2),
+            HistoryError::Vertex { simplex: 2, death: NEVER, vertex: 2, vertex_death: Some(1) }
+        );
+        assert_eq!(broken(|h| h.vertex_death[2] = 0), HistoryError::DeadVertex { vertex: 2 });
+    }
+}

@@ -1,0 +1,235 @@
+//! Levels: the steps that a file keeps.
+//!
+//! A decimator counts every removal, some 34,000 steps for the bunny. Nobody asks for a mesh between two removals of a
+//! triangle each, and triangles that are born and die between two kept steps need not be stored, so a file keeps few
+//! steps, spread evenly on the scale on which levels of detail are chosen: the logarithm of the simplex count. With at
+//! most `n` levels that scale is cut into `n - 1` intervals from the input to the coarsest step, and the first step in each
+//! interval is kept. By default an interval is a factor of 64/63.
+
+use super::{History, HistoryError, NEVER};
+use crate::tree::Lifetime;
+
+/// Each level of a file has about this part of the simplices of the level before.
+pub const LEVEL_RATIO: f64 = 63.0 / 64.0;
+
+/// Which steps a file keeps as levels.
+///
+/// Memory: 4 bytes per step. Invariants: `steps[0] == 0`, steps ascend strictly, simplex counts never rise.
+///
+/// ```
+/// use nephrite::history::{History, Levels, NEVER};
+/// let history = History {
+///     simplices: vec![[0, 1, 2], [0, 2, 3], [0, 1, 3]],
+///     birth: vec![0, 0, 1],
+///     death: vec![1, 1, NEVER],
+///     vertex_death: vec![NEVER, NEVER, 1, NEVER],
+///     errors: vec![0.0, 0.5],
+/// };
+/// let levels = Levels::choose(&history, None)?;
+/// assert_eq!(levels.steps(), [0, 1]);
+/// assert_eq!(levels.simplex_counts(), [2, 1]);
+/// # Ok::<(), nephrite::history::HistoryError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Levels {
+    steps: Vec<u32>,
+    simplex_counts: Vec<u32>,
+    /// First level at or after each step.
+    level_of_step: Vec<u32>,
+}
+
+impl Levels {
+    /// Chooses the levels of a history that passes [`History::check`].
+    ///
+    /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the
+    /// others; the last step of the history is kept. `limit` is the largest number of levels; 1 (or 0) keeps the input
+    /// only, and a large one keeps every step that removes a simplex. Cost: one pass over simplices and steps.
+    ///
+    /// # Errors
+    ///
+    /// [`HistoryError::Grows`] when the coarsest step has more simplices than the input.
+    pub fn choose<const CORNERS: usize>(
+        history: &History<CORNERS>,
+        limit: Option<u32>,
+    ) -> Result<Self, HistoryError> {
+        let alive = alive_counts(history);
+        let steps = choose_steps(&history.errors, &alive, limit);
+        let simplex_counts: Vec<u32> = steps.iter().map(|&step| alive[step as usize]).collect();
+        for (level, pair) in simplex_counts.windows(2).enumerate() {
+            if pair[1] > pair[0] {
+                return Err(HistoryError::Grows { step: steps[level + 1], found: pair[1], before: pair[0] });
+            }
+        }
+        // The counts are not needed any more; their memory becomes the table.
+        let mut level_of_step = alive;
+        let mut level = 0;
+        for (step, entry) in (0u32..).zip(&mut level_of_step) {
+            while steps.get(level as usize).is_some_and(|&kept| kept < step) {
+                level += 1;
+            }
+            *entry = level;
+        }
+        Ok(Self { steps, simplex_counts, level_of_step })
+    }
+
+    /// Number of levels, at least 1.
+    pub fn n_levels(&self) -> u32 {
+        // No more levels than steps, which are u32.
+        u32::try_from(self.steps.len()).unwrap_or(u32::MAX)
+    }
+
+    /// The step of each level.
+    pub fn steps(&self) -> &[u32] {
+        &self.steps
+    }
+
+    /// Simplices alive at each level.
+    pub fn simplex_counts(&self) -> &[u32] {
+        &self.simplex_counts
+    }
+
+    /// First level at or after `step`; the number of levels when there is none, as for [`NEVER`].
+    pub fn at_or_after(&self, step: u32) -> u32 {
+        let n_levels = self.n_levels();
+        if step == NEVER {
+            n_levels
+        } else {
+            self.level_of_step.get(step as usize).copied().unwrap_or(n_levels)
+        }
+    }
+
+    /// A lifetime in steps as one in levels, or `None` when no level sees it.
+    pub fn lifetime(&self, birth: u32, death: u32) -> Option<Lifetime> {
+        Lifetime::new(self.at_or_after(birth), self.at_or_after(death))
+    }
+}
+
+/// Simplices alive at each step.
+fn alive_counts<const CORNERS: usize>(history: &History<CORNERS>) -> Vec<u32> {
+    let mut alive = vec![0u32; history.errors.len()];
+    // Differences first; births before deaths of the same simplex keep every partial sum a count, wrapping or not.
+    for (&birth, &death) in history.birth.iter().zip(&history.death) {
+        if let Some(count) = alive.get_mut(birth as usize) {
+            *count = count.wrapping_add(1);
+        }
+        if let Some(count) = alive.get_mut(death as usize) {
+            *count = count.wrapping_sub(1);
+        }
+    }
+    let mut sum = 0u32;
+    for count in &mut alive {
+        sum = sum.wrapping_add(*count);
+        *count = sum;
+    }
+    alive
+}
+
+fn choose_steps(errors: &[f64], alive: &[u32], limit: Option<u32>) -> Vec<u32> {
+    let mut steps = vec![0];
+    let (Some(&finest), Some(&coarsest)) = (alive.first(), alive.last()) else { return steps };
+    if limit.is_some_and(|limit| limit <= 1) || alive.len() == 1 {
+        return steps;
+    }
+    let span = octaves(finest, coarsest);
+    let n_intervals = match limit {
+        Some(limit) => f64::from(limit - 1),
+        None => (span / -LEVEL_RATIO.log2()).ceil(),
+    };
+    let interval =
+        |count: u32| if span > 0.0 { (octaves(finest, count) / span * n_intervals).floor() } else { 0.0 };
+
+    let mut last_interval = 0.0;
+    for (step, pair) in (1u32..).zip(errors.windows(2).skip(1)) {
+        let is_last_of_equals = pair[1] > pair[0];
+        let this_interval = interval(alive[step as usize]);
+        if is_last_of_equals && this_interval > last_interval {
+            steps.push(step);
+            last_interval = this_interval;
+        }
+    }
+    // The last step takes the place of any that it is not coarser than.
+    let last = u32::try_from(alive.len() - 1).unwrap_or(u32::MAX);
+    while steps.len() > 1
+        && steps.last().is_some_and(|&step| interval(alive[step as usize]) >= interval(coarsest))
+    {
+        steps.pop();
+    }
+    steps.push(last);
+    steps
+}
+
+/// How many times `count` must be doubled to give `finest`.
+fn octaves(finest: u32, count: u32) -> f64 {
+    (f64::from(finest.max(1)) / f64::from(count.max(1))).log2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles fewer per step, as when an interior vertex is removed.
+    fn halving(n_steps: u32) -> (Vec<f64>, Vec<u32>) {
+        let errors = (0..=n_steps).map(|step| f64::from(step) * 0.5).collect();
+        (errors, (0..=n_steps).map(|step| 4 + 2 * (n_steps - step)).collect())
+    }
+
+    #[test]
+    fn default_levels_shrink_by_the_ratio_and_end_with_every_step() {
+        let (errors, alive) = halving(10_000);
+        let steps = choose_steps(&errors, &alive, None);
+        assert_eq!((steps[0], steps[steps.len() - 1]), (0, 10_000));
+        for pair in steps.windows(2) {
+            let (fine, coarse) = (f64::from(alive[pair[0] as usize]), f64::from(alive[pair[1] as usize]));
+            let ratio = coarse / fine;
+            let is_single_step = pair[1] - pair[0] == 1;
+            assert!(is_single_step || (ratio > 0.965 && ratio < 0.9945), "{fine} to {coarse}");
+        }
+        // 64 * ln(20004 / 128) for the series, some 62 single steps below 128 triangles.
+        assert!((350..450).contains(&steps.len()), "{}", steps.len());
+    }
+
+    #[test]
+    fn limits_are_kept_and_spread_alike() {
+        let (errors, alive) = halving(10_000);
+        for limit in [0, 1, 2, 3, 7, 12, 44, 145, 1000, 20_000, u32::MAX] {
+            let steps = choose_steps(&errors, &alive, Some(limit));
+            assert!(steps.len() as u64 <= u64::from(limit.max(1)), "{limit}: {}", steps.len());
+            assert!(limit < 2 || steps[steps.len() - 1] == 10_000);
+            assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
+        }
+        assert_eq!(choose_steps(&errors, &alive, Some(u32::MAX)).len(), 10_001);
+        assert_eq!(choose_steps(&errors, &alive, Some(12)).len(), 12);
+    }
+
+    #[test]
+    fn runs_of_equal_error_leave_their_last_step() {
+        let errors = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
+        let alive = [14, 12, 10, 8, 6, 4, 2];
+        assert_eq!(choose_steps(&errors, &alive, None), [0, 2, 4, 6]);
+    }
+
+    #[test]
+    fn a_last_step_without_fewer_simplices_replaces_its_equals() {
+        assert_eq!(choose_steps(&[0.0, 1.0, 2.0, 3.0], &[8, 6, 4, 4], None), [0, 1, 3]);
+        assert_eq!(choose_steps(&[0.0, 1.0], &[8, 8], None), [0, 1]);
+        assert_eq!(choose_steps(&[0.0], &[0], None), [0]);
+        assert_eq!(choose_steps(&[0.0, 1.0], &[0, 0], Some(5)), [0, 1]);
+    }
+
+    #[test]
+    fn lifetimes_count_levels_and_short_ones_vanish() {
+        let history = History {
+            simplices: vec![[0, 1, 2]; 4],
+            birth: vec![0, 1, 2, 0],
+            death: vec![NEVER, 2, 3, 3],
+            vertex_death: vec![NEVER; 3],
+            errors: vec![0.0, 1.0, 1.0, 2.0],
+        };
+        let levels = Levels::choose(&history, Some(3)).unwrap();
+        assert_eq!(levels.steps(), [0, 3]);
+        assert_eq!(levels.lifetime(0, NEVER), Lifetime::new(0, 2));
+        assert_eq!(levels.lifetime(1, 2), None);
+        assert_eq!(levels.lifetime(2, 3), None);
+        assert_eq!(levels.lifetime(0, 3), Lifetime::new(0, 1));
+    }
+}

@@ -1,0 +1,116 @@
+//! The answer to a query.
+
+use super::{Lod, QueryError};
+use crate::tree::Runs;
+use nephrite_formats::{Attribute, TriangleMesh};
+
+/// The mesh at one level: a few runs of the index buffer and a prefix of the vertex buffer. Copying it copies two words.
+///
+/// ```no_run
+/// # let lod = nephrite::Lod::open("bunny.neph")?;
+/// let cut = lod.at_triangles(10_000);
+/// let mut indices = vec![0; cut.n_indices()];
+/// cut.extract_into(&mut indices)?;
+/// let positions = cut.vertices();
+/// assert!(indices.iter().all(|&index| (index as usize) < positions.len()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Cut<'a> {
+    lod: &'a Lod,
+    level: u32,
+}
+
+impl<'a> Cut<'a> {
+    /// `level` is below the number of levels.
+    pub(super) fn new(lod: &'a Lod, level: u32) -> Self {
+        Self { lod, level }
+    }
+
+    /// The file this is a cut of.
+    pub fn lod(&self) -> &'a Lod {
+        self.lod
+    }
+
+    /// Its level.
+    pub fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// Error of the level, in mesh units.
+    pub fn error(&self) -> f64 {
+        self.lod.errors()[self.level as usize]
+    }
+
+    /// The triangles as contiguous ranges of slots, ascending and without overlap. At most one per height of the interval
+    /// tree, `bit length of (n_levels - 1) + 1`. Cost: about three cache lines.
+    pub fn runs(&self) -> Runs<'a> {
+        self.lod.file().tree().stab(self.level)
+    }
+
+    /// Number of runs.
+    pub fn n_runs(&self) -> usize {
+        self.runs().count()
+    }
+
+    /// Triangles in all runs.
+    pub fn n_triangles(&self) -> usize {
+        self.runs().map(|run| run.len as usize).sum()
+    }
+
+    /// Vertex indices in all runs: what [`extract_into`](Self::extract_into) writes.
+    pub fn n_indices(&self) -> usize {
+        self.n_triangles() * self.lod.n_corners() as usize
+    }
+
+    /// Vertices of the level, a prefix of [`Lod::vertices`].
+    pub fn vertex_count(&self) -> usize {
+        let stated = self.lod.file().vertex_counts()[self.level as usize] as usize;
+        stated.min(self.lod.vertices().len())
+    }
+
+    /// Positions of the level's vertices.
+    pub fn vertices(&self) -> &'a [[f32; 3]] {
+        &self.lod.vertices()[..self.vertex_count()]
+    }
+
+    /// The level as a mesh of its own, attributes included. Every index and every position is checked.
+    ///
+    /// # Errors
+    ///
+    /// [`QueryError::NotTriangles`] for a file of other simplices; [`QueryError::VertexIndex`] and [`QueryError::Position`] for
+    /// a damaged file.
+    pub fn to_mesh(&self) -> Result<TriangleMesh, QueryError> {
+        if self.lod.n_corners() != 3 {
+            return Err(QueryError::NotTriangles { found: self.lod.n_corners() });
+        }
+        let positions = self.vertices();
+        if let Some(vertex) = positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
+            return Err(QueryError::Position { vertex });
+        }
+        let mut triangles = vec![[0; 3]; self.n_triangles()];
+        self.extract_into(triangles.as_flattened_mut())?;
+        self.check_indices(triangles.as_flattened())?;
+        let attributes = self.lod.attributes().map(|view| Attribute {
+            name: view.name.to_owned(),
+            scalar: view.scalar,
+            n_components: view.n_components,
+            bytes: view.bytes.get(..positions.len() * view.stride_bytes()).unwrap_or(&[]).to_vec(),
+        });
+        Ok(TriangleMesh {
+            origin: self.lod.origin(),
+            positions: positions.to_vec(),
+            triangles,
+            attributes: attributes.collect(),
+            rounding: self.lod.rounding(),
+        })
+    }
+
+    fn check_indices(&self, indices: &[u32]) -> Result<(), QueryError> {
+        let vertex_count = self.vertex_count();
+        match indices.iter().find(|&&index| index as usize >= vertex_count) {
+            Some(&found) => Err(QueryError::VertexIndex { found, vertex_count }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! All levels of detail of one mesh.
+
+use super::Cut;
+use crate::store::{AttributeView, Metadata, OpenError, Opened, VerifyError};
+use std::path::Path;
+
+/// All levels of detail of one mesh, from an opened `.neph` file.
+///
+/// Shared freely between threads. No query allocates or waits. Level 0 is the input, the last level the coarsest; there is
+/// at least one. A file that opens may still be damaged: then answers are wrong, but every run stays inside
+/// [`indices`](Self::indices) and every prefix inside [`vertices`](Self::vertices). [`verify`](Self::verify) tells.
+///
+/// ```no_run
+/// # fn draw_indexed(_: std::ops::Range<usize>) {}
+/// let lod = nephrite::Lod::open("bunny.neph")?;
+/// let cut = lod.at_error(0.001);
+/// for run in cut.runs() {
+///     draw_indexed(run.index_range(3));
+/// }
+/// # Ok::<(), nephrite::store::OpenError>(())
+/// ```
+#[derive(Debug)]
+pub struct Lod {
+    file: Opened,
+}
+
+/// One level on the curve of error against size.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct CurvePoint {
+    /// Error of the level, in mesh units.
+    pub error: f64,
+    /// Its triangles.
+    pub triangles: u32,
+    /// Its vertices.
+    pub vertices: u32,
+}
+
+impl From<Opened> for Lod {
+    fn from(file: Opened) -> Self {
+        Self { file }
+    }
+}
+
+impl Lod {
+    /// Reads a file into memory.
+    ///
+    /// # Errors
+    ///
+    /// [`OpenError`] when the system refuses or the head of the file is not in order.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, OpenError> {
+        Opened::open(path).map(Self::from)
+    }
+
+    /// Takes a copy of the bytes of a file.
+    ///
+    /// # Errors
+    ///
+    /// [`OpenError::Format`] when the head is not in order, [`OpenError::OutOfMemory`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, OpenError> {
+        Opened::from_bytes(bytes).map(Self::from)
+    }
+
+    /// The coarsest level whose error is at most `error` (mesh units): the last one, for errors never fall. Level 0 where
+    /// there is none, as for negative errors and NaN. Cost: a binary search over the levels.
+    pub fn at_error(&self, error: f64) -> Cut<'_> {
+        let n_within = self.errors().partition_point(|&stated| stated <= error);
+        self.at_index(n_within.saturating_sub(1))
+    }
+
+    /// The finest level with at most `n_triangles` triangles; the coarsest level where there is none. Cost: a binary search
+    /// over the levels.
+    pub fn at_triangles(&self, n_triangles: usize) -> Cut<'_> {
+        let n_above = self.file.simplex_counts().partition_point(|&stated| stated as usize > n_triangles);
+        self.at_index(n_above)
+    }
+
+    /// The given level; the coarsest one where there is no such level.
+    pub fn at_level(&self, level: u32) -> Cut<'_> {
+        Cut::new(self, level.min(self.n_levels() - 1))
+    }
+
+    /// Number of levels, at least 1.
+    pub fn n_levels(&self) -> u32 {
+        self.file.header().n_levels
+    }
+
+    /// Error of each level in mesh units, never falling. Length: [`n_levels`](Self::n_levels).
+    pub fn errors(&self) -> &[f64] {
+        self.file.errors()
+    }
+
+    /// The whole curve, finest level first.
+    pub fn curve(&self) -> impl ExactSizeIterator<Item = CurvePoint> + '_ {
+        let counts = self.file.simplex_counts().iter().zip(self.file.vertex_counts());
+        self.errors().iter().zip(counts).map(|(&error, (&triangles, &vertices))| CurvePoint {
+            error,
+            triangles,
+            vertices,
+        })
+    }
+
+    /// Positions of all vertices, relative to [`origin`](Self::origin). The vertices of any level are a prefix.
+    pub fn vertices(&self) -> &[[f32; 3]] {
+        self.file.positions()
+    }
+
+    /// Vertex indices of all slots, [`n_corners`](Self::n_corners) each: the buffer that runs refer to.
+    pub fn indices(&self) -> &[u32] {
+        self.file.simplices()
+    }
+
+    /// Per-vertex attributes, in the order of [`vertices`](Self::vertices).
+    pub fn attributes(&self) -> impl ExactSizeIterator<Item = AttributeView<'_>> {
+        self.file.attributes()
+    }
+
+    /// Vertex indices per simplex: 3 for triangles.
+    pub fn n_corners(&self) -> u32 {
+        self.file.header().n_corners
+    }
+
+    /// Simplices that are alive at some level.
+    pub fn n_lifetimes(&self) -> u64 {
+        self.file.header().n_lifetimes
+    }
+
+    /// Added to every position to give the coordinates of the input.
+    pub fn origin(&self) -> [f64; 3] {
+        self.file.header().origin
+    }
+
+    /// Least and largest coordinates of all vertices, relative to [`origin`](Self::origin).
+    pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        (self.file.header().bounds_min, self.file.header().bounds_max)
+    }
+
+    /// Length of the diagonal of [`bounds`](Self::bounds): what percentages of error refer to.
+    pub fn bounding_diagonal(&self) -> f64 {
+        let (min, max) = self.bounds();
+        let side_sq = |i: usize| (f64::from(max[i]) - f64::from(min[i])).powi(2);
+        (0..3).map(side_sq).sum::<f64>().sqrt()
+    }
+
+    /// Largest distance between a vertex of the input and its position here, in mesh units.
+    pub fn rounding(&self) -> f64 {
+        self.file.header().rounding
+    }
+
+    /// How the file was made.
+    ///
+    /// # Errors
+    ///
+    /// Where the metadata of the file is no JSON object of the known shape.
+    pub fn metadata(&self) -> Result<Metadata, serde_json::Error> {
+        self.file.metadata()
+    }
+
+    /// Length of the file.
+    pub fn file_bytes(&self) -> u64 {
+        self.file.header().file_bytes
+    }
+
+    /// Checks every checksum and every invariant, see [`Opened::verify`].
+    ///
+    /// # Errors
+    ///
+    /// The first rule that is broken.
+    pub fn verify(&self) -> Result<(), VerifyError> {
+        self.file.verify()
+    }
+
+    /// The opened file behind this.
+    pub fn file(&self) -> &Opened {
+        &self.file
+    }
+
+    fn at_index(&self, level: usize) -> Cut<'_> {
+        self.at_level(u32::try_from(level).unwrap_or(u32::MAX))
+    }
+}

@@ -1,0 +1,74 @@
+//! The attribute sections of a new file.
+
+use super::WriteError;
+use nephrite_formats::neph::{
+    AttributeRecord, MAX_ATTRIBUTE_NAMES_BYTES, MAX_ATTRIBUTES, align, scalar_code,
+};
+use nephrite_formats::{Attribute, TriangleMesh};
+use std::collections::HashSet;
+
+/// Attribute table and names, and the length of the values.
+pub(super) struct AttributeSections {
+    pub table: Vec<AttributeRecord>,
+    pub names: Vec<u8>,
+    pub values_bytes: u64,
+}
+
+impl AttributeSections {
+    pub(super) fn new(mesh: &TriangleMesh) -> Result<Self, WriteError> {
+        let n_vertices = mesh.positions.len() as u64;
+        let mut sections = Self { table: Vec::new(), names: Vec::new(), values_bytes: 0 };
+        let mut seen = HashSet::new();
+        for attribute in &mesh.attributes {
+            let error = |what, found, expected| {
+                Err(WriteError::Attribute { name: attribute.name.clone(), what, found, expected })
+            };
+            let (found, expected) =
+                (attribute.bytes.len() as u64, n_vertices * attribute.stride_bytes() as u64);
+            if found != expected {
+                return error("bytes", found, expected);
+            }
+            if attribute.n_components == 0 {
+                return error("components", 0, 1);
+            }
+            if attribute.name.is_empty() {
+                return error("bytes of name", 0, 1);
+            }
+            if !seen.insert(attribute.name.as_str()) {
+                return error("attributes of that name", 2, 1);
+            }
+            sections.push(attribute)?;
+        }
+        let found = sections.table.len() as u64;
+        if found > MAX_ATTRIBUTES {
+            return Err(WriteError::TooManyAttributes { what: "attributes", found, max: MAX_ATTRIBUTES });
+        }
+        Ok(sections)
+    }
+
+    fn push(&mut self, attribute: &Attribute) -> Result<(), WriteError> {
+        let found = self.names.len() as u64 + attribute.name.len() as u64;
+        let too_long = WriteError::TooManyAttributes {
+            what: "bytes of attribute names",
+            found,
+            max: MAX_ATTRIBUTE_NAMES_BYTES,
+        };
+        let name = u32::try_from(self.names.len()).ok().zip(u32::try_from(attribute.name.len()).ok());
+        let Some((name_offset, name_bytes)) = name.filter(|_| found <= MAX_ATTRIBUTE_NAMES_BYTES) else {
+            return Err(too_long);
+        };
+        let values_offset = align(self.values_bytes);
+        let values_bytes = attribute.bytes.len() as u64;
+        self.values_bytes = values_offset + values_bytes;
+        self.names.extend_from_slice(attribute.name.as_bytes());
+        self.table.push(AttributeRecord {
+            name_offset,
+            name_bytes,
+            scalar: scalar_code(attribute.scalar),
+            n_components: attribute.n_components,
+            values_offset,
+            values_bytes,
+        });
+        Ok(())
+    }
+}

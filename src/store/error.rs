@@ -1,0 +1,209 @@
+//! What can go wrong while writing, opening and verifying.
+
+use crate::history::HistoryError;
+use crate::tree::{TreeError, TreeFault};
+use nephrite_formats::neph::NephError;
+use std::io;
+use std::path::PathBuf;
+
+/// A file could not be written. The path given still holds what it held before.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The system refused.
+    #[error("cannot {action} {}", path.display())]
+    Io {
+        /// What was tried: `create`, `write`, `sync`, `check`, `rename`.
+        action: &'static str,
+        /// The file concerned.
+        path: PathBuf,
+        /// Answer of the system.
+        source: io::Error,
+    },
+    /// The stream given to [`write_to`](super::write_to) refused.
+    #[error("cannot write to the stream")]
+    Stream(#[from] io::Error),
+    /// What was read back differs from what was written.
+    #[error("{} was damaged while it was written", path.display())]
+    Damaged {
+        /// The temporary file, which is removed.
+        path: PathBuf,
+        /// What differs.
+        source: VerifyError,
+    },
+    /// The history breaks an invariant.
+    #[error("history is not valid")]
+    History(#[from] HistoryError),
+    /// The history and the mesh belong to different vertices.
+    #[error("history has {found} vertices, the mesh {expected}")]
+    VertexCount {
+        /// Vertices of the history.
+        found: u64,
+        /// Vertices of the mesh.
+        expected: u64,
+    },
+    /// A coordinate, the origin or the rounding is not finite.
+    #[error("coordinate of {what} is not finite")]
+    NotFinite {
+        /// `vertex 17`, `the origin` or `the rounding`.
+        what: String,
+    },
+    /// The lifetimes exceed what a tree can hold.
+    #[error("history is too large for one file")]
+    Tree(#[from] TreeError),
+    /// An attribute does not fit the mesh or the file.
+    #[error("attribute {name:?} has {found} {what}, expected {expected}")]
+    Attribute {
+        /// Its name.
+        name: String,
+        /// `bytes`, `components`, `bytes of name` or `attributes of that name`.
+        what: &'static str,
+        /// Value found.
+        found: u64,
+        /// Value expected, or the largest allowed.
+        expected: u64,
+    },
+    /// More attributes, or longer names, than a file holds.
+    #[error("{found} {what}, at most {max} are possible")]
+    TooManyAttributes {
+        /// `attributes` or `bytes of attribute names`.
+        what: &'static str,
+        /// How many.
+        found: u64,
+        /// How many a file holds.
+        max: u64,
+    },
+    /// The metadata is no JSON, as when a map has keys that are no strings.
+    #[error("metadata cannot be written as JSON")]
+    Metadata(#[from] serde_json::Error),
+    /// The metadata is longer than a file holds.
+    #[error("metadata takes {found} bytes, at most {max} are possible")]
+    MetadataBytes {
+        /// Its length as JSON.
+        found: u64,
+        /// The largest length.
+        max: u64,
+    },
+    /// The sections do not fit in a file.
+    #[error("sections do not fit in a file")]
+    Placement(#[from] NephError),
+}
+
+/// A file could not be opened.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OpenError {
+    /// The system refused.
+    #[error("cannot {action} {}", path.display())]
+    Io {
+        /// What was tried: `open`, `read` or `map`.
+        action: &'static str,
+        /// The file concerned.
+        path: PathBuf,
+        /// Answer of the system.
+        source: io::Error,
+    },
+    /// A directory, a device or a pipe.
+    #[error("{} is not a regular file", path.display())]
+    NotAFile {
+        /// The path given.
+        path: PathBuf,
+    },
+    /// The file is longer than the memory to be had.
+    #[error("no memory for a file of {bytes} bytes")]
+    OutOfMemory {
+        /// Length of the file.
+        bytes: u64,
+    },
+    /// Header, directory or attribute table break a rule of the format.
+    #[error("not a readable .neph file")]
+    Format(#[from] NephError),
+}
+
+/// A file that opens breaks a rule of the format.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// The head is damaged.
+    #[error("header or directory are damaged")]
+    Head(#[from] NephError),
+    /// The file cannot be read to its end.
+    #[error("cannot read the file")]
+    Read(#[from] io::Error),
+    /// A chunk of the body is damaged.
+    #[error("chunk {chunk} of the body has checksum {found:016x}, expected {expected:016x}")]
+    Chunk {
+        /// Which chunk.
+        chunk: u64,
+        /// Checksum computed.
+        found: u64,
+        /// Checksum stored.
+        expected: u64,
+    },
+    /// The checksums themselves are damaged.
+    #[error("checksum section has checksum {found:016x}, expected {expected:016x}")]
+    Checksums {
+        /// Checksum computed.
+        found: u64,
+        /// Checksum stored.
+        expected: u64,
+    },
+    /// A byte between two sections is not zero.
+    #[error("padding at byte {offset} is not zero")]
+    Padding {
+        /// Where.
+        offset: u64,
+    },
+    /// The metadata is no JSON of the known shape.
+    #[error("metadata is not readable")]
+    Metadata(#[from] serde_json::Error),
+    /// An error is negative or not finite, or the table falls.
+    #[error("error of level {level} is {found} after {before}")]
+    Error {
+        /// Which level.
+        level: u32,
+        /// Its error.
+        found: f64,
+        /// Error of the level before, or zero.
+        before: f64,
+    },
+    /// A count of simplices or vertices rises from one level to the next, or is not the one the rest of the file gives.
+    #[error("level {level} has {found} {what} where {expected} are possible")]
+    Count {
+        /// Which level.
+        level: u32,
+        /// `simplices` or `vertices`.
+        what: &'static str,
+        /// Count in the table.
+        found: u64,
+        /// Largest count allowed, or the count that the runs give.
+        expected: u64,
+    },
+    /// The number of lifetimes in the header is wrong.
+    #[error("header counts {found} lifetimes, the slots hold {expected}")]
+    Lifetimes {
+        /// Number in the header.
+        found: u64,
+        /// Lifetimes in the slots.
+        expected: u64,
+    },
+    /// The interval tree is wrong.
+    #[error("interval tree is damaged")]
+    Tree(#[from] TreeFault),
+    /// A simplex uses a vertex that some of its levels do not have.
+    #[error("slot {slot} uses vertex {found}, its levels have {vertex_count}")]
+    Vertex {
+        /// Which slot.
+        slot: u32,
+        /// The vertex index.
+        found: u32,
+        /// Vertices of the last level in which the simplex is alive.
+        vertex_count: u32,
+    },
+    /// A position is not finite, or outside the bounds of the header.
+    #[error("position of vertex {vertex} is not finite or outside the bounds")]
+    Position {
+        /// Which vertex.
+        vertex: u32,
+    },
+}

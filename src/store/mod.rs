@@ -1,0 +1,26 @@
+//! The `.neph` file: written once from a finished history, opened in constant time, verified on demand.
+//!
+//! Writing chooses the levels, orders the vertices, lays out the interval tree and streams the sections, so that it needs
+//! 4 bytes per slot and 8 per vertex beside mesh and history, never the file itself. Opening looks at the first 16 KiB.
+//! What is read later is clamped where it is used: a damaged file that opens gives wrong levels, never slots out of range.
+//!
+//! The layout of the file is in `formats/SPEC.md`.
+
+mod arrange;
+mod attributes;
+mod body;
+mod error;
+mod integrity;
+mod map;
+mod memory;
+mod metadata;
+mod opened;
+mod publish;
+mod verify;
+mod write;
+
+pub use error::{OpenError, VerifyError, WriteError};
+pub use metadata::{Metadata, Provenance};
+pub use opened::{AttributeView, Opened};
+pub use publish::write;
+pub use write::{StoreOptions, StoreReport, write_to};

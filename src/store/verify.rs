@@ -1,0 +1,129 @@
+//! Verifying: every checksum and every invariant of the format.
+
+use super::integrity::check_integrity;
+use super::{Opened, VerifyError};
+use nephrite_formats::neph::{SECTION_ALIGNMENT, SectionKind};
+use std::io::Cursor;
+
+impl Opened {
+    /// Checks everything the format promises: checksums, padding, metadata, error table, counts, the interval tree with
+    /// both lists of every node, vertex indices against the vertex prefix of every level, and positions.
+    ///
+    /// For a file read into memory the answer holds for as long as this value lives; for a mapped one it is a fact about
+    /// the past. Cost: `O(n log n)` in the slots, all threads; memory up to 8 bytes per slot.
+    ///
+    /// # Errors
+    ///
+    /// The first rule that is broken.
+    pub fn verify(&self) -> Result<(), VerifyError> {
+        check_integrity(&mut Cursor::new(self.bytes()), self.directory())?;
+        self.verify_structure()
+    }
+
+    /// The part of [`verify`](Self::verify) that does not rely on checksums.
+    ///
+    /// # Errors
+    ///
+    /// The first rule that is broken.
+    pub fn verify_structure(&self) -> Result<(), VerifyError> {
+        self.check_padding()?;
+        self.metadata()?;
+        self.check_errors()?;
+        self.check_positions()?;
+        self.check_vertex_counts()?;
+        self.check_tree()?;
+        self.check_simplex_counts()
+    }
+
+    /// Bytes between sections, and between attribute values, are zero.
+    fn check_padding(&self) -> Result<(), VerifyError> {
+        let sections = SectionKind::ALL.into_iter().map(|kind| self.directory().section(kind));
+        let values_start = self.directory().section(SectionKind::AttributeValues).0;
+        let attributes = self.attributes().map(|view| view.bytes.len() as u64);
+        let attributes = attributes.scan(0u64, |end, bytes| {
+            let offset = end.next_multiple_of(SECTION_ALIGNMENT);
+            *end = offset + bytes;
+            Some((values_start + offset, bytes))
+        });
+        let file_bytes = self.bytes().len() as u64;
+        for (offset, bytes) in sections.chain(attributes) {
+            let end = offset + bytes;
+            let padding = end..end.next_multiple_of(SECTION_ALIGNMENT).min(file_bytes);
+            for offset in padding {
+                if usize::try_from(offset).ok().and_then(|at| self.bytes().get(at)) != Some(&0) {
+                    return Err(VerifyError::Padding { offset });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_errors(&self) -> Result<(), VerifyError> {
+        let mut before = 0.0;
+        for (level, &found) in (0..).zip(self.errors()) {
+            if !found.is_finite() || found < before {
+                return Err(VerifyError::Error { level, found, before });
+            }
+            before = found;
+        }
+        Ok(())
+    }
+
+    fn check_positions(&self) -> Result<(), VerifyError> {
+        let (min, max) = (self.header().bounds_min, self.header().bounds_max);
+        for (vertex, position) in (0..).zip(self.positions()) {
+            // Comparisons with NaN are false, and bounds are finite.
+            if !(0..3).all(|i| min[i] <= position[i] && position[i] <= max[i]) {
+                return Err(VerifyError::Position { vertex });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_vertex_counts(&self) -> Result<(), VerifyError> {
+        let what = "vertices";
+        let mut before = self.header().n_vertices;
+        for (level, &found) in (0..).zip(self.vertex_counts()) {
+            let found = u64::from(found);
+            if found > before || (level == 0 && found != before) {
+                return Err(VerifyError::Count { level, what, found, expected: before });
+            }
+            before = found;
+        }
+        Ok(())
+    }
+
+    fn check_tree(&self) -> Result<(), VerifyError> {
+        let n_corners = self.header().n_corners as usize;
+        let (simplices, vertex_counts) = (self.simplices(), self.vertex_counts());
+        // Of the two slots of a lifetime only one counts.
+        let mut n_half_lifetimes = 0u64;
+        self.tree().check(self.stamps(), simplices, n_corners, |slot, lifetime| {
+            n_half_lifetimes += if lifetime.height() == 0 { 2 } else { 1 };
+            let vertex_count = vertex_counts.get(lifetime.last() as usize).copied().unwrap_or(0);
+            let start = slot as usize * n_corners;
+            let vertices = simplices.get(start..start + n_corners).unwrap_or(&[]);
+            match vertices.iter().find(|&&vertex| vertex >= vertex_count) {
+                Some(&found) => Err(VerifyError::Vertex { slot, found, vertex_count }),
+                None => Ok(()),
+            }
+        })?;
+        let (found, expected) = (self.header().n_lifetimes, n_half_lifetimes / 2);
+        if found == expected { Ok(()) } else { Err(VerifyError::Lifetimes { found, expected }) }
+    }
+
+    fn check_simplex_counts(&self) -> Result<(), VerifyError> {
+        let what = "simplices";
+        let tree = self.tree();
+        let mut before = u64::from(u32::MAX);
+        for (level, &found) in (0..).zip(self.simplex_counts()) {
+            let found = u64::from(found);
+            let expected: u64 = tree.stab(level).map(|run| u64::from(run.len)).sum();
+            if found != expected || found > before {
+                return Err(VerifyError::Count { level, what, found, expected: expected.min(before) });
+            }
+            before = found;
+        }
+        Ok(())
+    }
+}

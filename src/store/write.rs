@@ -1,0 +1,274 @@
+//! Writing: everything is laid out first, then streamed in one pass, and the head is filled in at the end.
+
+use super::arrange::{Grid, VertexOrder, bounds};
+use super::attributes::AttributeSections;
+use super::body::BodyWriter;
+use super::{Metadata, Provenance, WriteError};
+use crate::History;
+use crate::history::Levels;
+use crate::tree::{Layout, Lifetime, Run};
+use nephrite_formats::TriangleMesh;
+use nephrite_formats::neph::{
+    self, CHUNK_BYTES, Header, MAGIC, MAX_METADATA_BYTES, Placement, SectionKind, VERSION,
+};
+use std::io::{self, Seek, SeekFrom, Write};
+
+/// What a file is to keep of a history.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StoreOptions {
+    /// Most levels; `None` for as many as [`LEVEL_RATIO`](crate::history::LEVEL_RATIO) gives.
+    pub levels: Option<u32>,
+}
+
+/// What was written.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct StoreReport {
+    /// Levels of the file.
+    pub n_levels: u32,
+    /// Simplices that are alive at some level.
+    pub n_lifetimes: u32,
+    /// Stored copies of simplices.
+    pub n_slots: u32,
+    /// Vertices of level 0.
+    pub n_vertices: u32,
+    /// Simplices of the coarsest level.
+    pub n_coarsest: u32,
+    /// Error of the coarsest level, in mesh units.
+    pub max_error: f64,
+    /// Length of the file.
+    pub file_bytes: u64,
+}
+
+/// Writes a whole file to an empty stream.
+///
+/// Memory: 4 bytes per slot and 8 per vertex, beside mesh and history. The same input gives the same bytes on any number
+/// of threads. [`write`](super::write()) does the same to a path, safely.
+///
+/// # Errors
+///
+/// [`WriteError`] when the history or an attribute does not fit the mesh, when the file would exceed a limit of the format,
+/// or when the stream refuses.
+pub fn write_to<const CORNERS: usize>(
+    stream: &mut (impl Write + Seek),
+    mesh: &TriangleMesh,
+    history: &History<CORNERS>,
+    provenance: &Provenance,
+    options: &StoreOptions,
+) -> Result<StoreReport, WriteError> {
+    check_mesh(mesh, history)?;
+    history.check()?;
+    let levels = Levels::choose(history, options.levels)?;
+    let layout = lay_out(mesh, history, &levels)?;
+    let vertices = VertexOrder::new(mesh, history, &levels);
+    let (run_offsets, runs) = layout.runs();
+    let metadata = metadata_bytes(provenance)?;
+    let attributes = AttributeSections::new(mesh)?;
+    let content =
+        Content { mesh, history, levels, layout, vertices, run_offsets, runs, metadata, attributes };
+    let placement = neph::plan(&content.section_bytes(), CHUNK_BYTES)?;
+    content.stream_to(stream, &placement)?;
+    Ok(content.report(&placement))
+}
+
+fn check_mesh<const CORNERS: usize>(
+    mesh: &TriangleMesh,
+    history: &History<CORNERS>,
+) -> Result<(), WriteError> {
+    let (found, expected) = (history.vertex_death.len() as u64, mesh.positions.len() as u64);
+    if found != expected {
+        return Err(WriteError::VertexCount { found, expected });
+    }
+    let not_finite = |what: String| Err(WriteError::NotFinite { what });
+    if !mesh.origin.iter().all(|x| x.is_finite()) {
+        return not_finite("the origin".to_owned());
+    }
+    if !(mesh.rounding.is_finite() && mesh.rounding >= 0.0) {
+        return not_finite("the rounding".to_owned());
+    }
+    match mesh.positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
+        Some(vertex) => not_finite(format!("vertex {vertex}")),
+        None => Ok(()),
+    }
+}
+
+fn lay_out<const CORNERS: usize>(
+    mesh: &TriangleMesh,
+    history: &History<CORNERS>,
+    levels: &Levels,
+) -> Result<Layout, WriteError> {
+    let n_simplices = u32::try_from(history.simplices.len()).unwrap_or(u32::MAX);
+    let mut layout =
+        Layout::build(levels.n_levels(), n_simplices, |simplex| lifetime(history, levels, simplex))?;
+    let grid = Grid::around(&mesh.positions);
+    layout.sort_groups_by_key(|simplex| {
+        grid.morton_of_centroid(&mesh.positions, history.simplices[simplex as usize])
+    });
+    Ok(layout)
+}
+
+fn lifetime<const CORNERS: usize>(
+    history: &History<CORNERS>,
+    levels: &Levels,
+    simplex: u32,
+) -> Option<Lifetime> {
+    levels.lifetime(history.birth[simplex as usize], history.death[simplex as usize])
+}
+
+fn metadata_bytes(provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
+    let metadata = serde_json::to_vec(&Metadata::new(provenance.clone()))?;
+    let found = metadata.len() as u64;
+    if found > MAX_METADATA_BYTES {
+        return Err(WriteError::MetadataBytes { found, max: MAX_METADATA_BYTES });
+    }
+    Ok(metadata)
+}
+
+/// Everything that goes into the file, most of it by reference and in the order of the input.
+struct Content<'a, const CORNERS: usize> {
+    mesh: &'a TriangleMesh,
+    history: &'a History<CORNERS>,
+    levels: Levels,
+    layout: Layout,
+    vertices: VertexOrder,
+    run_offsets: Vec<u64>,
+    runs: Vec<Run>,
+    metadata: Vec<u8>,
+    attributes: AttributeSections,
+}
+
+impl<const CORNERS: usize> Content<'_, CORNERS> {
+    /// Sections in the order of the file, small ones first.
+    fn section_bytes(&self) -> Vec<(SectionKind, u64)> {
+        let n_levels = self.levels.steps().len() as u64;
+        let n_slots = self.layout.slots().len() as u64;
+        let mut sections = vec![
+            (SectionKind::Metadata, self.metadata.len() as u64),
+            (SectionKind::Errors, 8 * n_levels),
+            (SectionKind::SimplexCounts, 4 * n_levels),
+            (SectionKind::VertexCounts, 4 * n_levels),
+            (SectionKind::RunOffsets, 8 * (n_levels + 1)),
+            (SectionKind::Runs, 8 * self.runs.len() as u64),
+        ];
+        if !self.attributes.table.is_empty() {
+            sections.push((SectionKind::AttributeTable, size_of_val(&self.attributes.table[..]) as u64));
+            sections.push((SectionKind::AttributeNames, self.attributes.names.len() as u64));
+        }
+        sections.push((SectionKind::Positions, 12 * self.mesh.positions.len() as u64));
+        if !self.attributes.table.is_empty() {
+            sections.push((SectionKind::AttributeValues, self.attributes.values_bytes));
+        }
+        sections.push((SectionKind::Simplices, 4 * CORNERS as u64 * n_slots));
+        sections.push((SectionKind::Stamps, 4 * n_slots));
+        sections
+    }
+
+    fn stream_to(&self, stream: &mut (impl Write + Seek), placement: &Placement) -> io::Result<()> {
+        let mut body = BodyWriter::begin(&mut *stream, placement.body_start)?;
+        for record in &placement.records {
+            body.pad_to(record.offset)?;
+            if let Some(kind) = SectionKind::from_code(record.kind) {
+                self.stream_section(kind, &mut body)?;
+            }
+        }
+        let checksums = body.finish()?;
+        let checksums: &[u8] = bytemuck::cast_slice(&checksums);
+        stream.write_all(checksums)?;
+
+        let directory: &[u8] = bytemuck::cast_slice(&placement.records);
+        let mut header = self.header(placement);
+        header.checksums_checksum = neph::checksum(checksums);
+        header.head_checksum = neph::head_checksum(&header, directory);
+        stream.seek(SeekFrom::Start(0))?;
+        stream.write_all(bytemuck::bytes_of(&header))?;
+        stream.write_all(directory)?;
+        stream.flush()
+    }
+
+    fn stream_section(&self, kind: SectionKind, body: &mut BodyWriter<impl Write>) -> io::Result<()> {
+        let slots = self.layout.slots().iter();
+        match kind {
+            SectionKind::Metadata => body.put(&self.metadata),
+            SectionKind::Errors => body.put_each(self.errors()),
+            SectionKind::SimplexCounts => body.put(bytemuck::cast_slice(self.levels.simplex_counts())),
+            SectionKind::VertexCounts => body.put(bytemuck::cast_slice(&self.vertices.counts)),
+            SectionKind::RunOffsets => body.put(bytemuck::cast_slice(&self.run_offsets)),
+            SectionKind::Runs => body.put(bytemuck::cast_slice(&self.runs)),
+            SectionKind::AttributeTable => body.put(bytemuck::cast_slice(&self.attributes.table)),
+            SectionKind::AttributeNames => body.put(&self.attributes.names),
+            SectionKind::AttributeValues => self.stream_attribute_values(body),
+            SectionKind::Positions => {
+                body.put_each(self.vertices.order.iter().map(|&vertex| self.mesh.positions[vertex as usize]))
+            }
+            SectionKind::Simplices => body.put_each(slots.flat_map(|&simplex| {
+                self.history.simplices[simplex as usize].map(|vertex| self.vertices.rank[vertex as usize])
+            })),
+            SectionKind::Stamps => body.put_each(self.stamps()),
+            // Known only when the body is written.
+            SectionKind::Checksums => Ok(()),
+        }
+    }
+
+    fn errors(&self) -> impl Iterator<Item = f64> + '_ {
+        self.levels.steps().iter().map(|&step| self.history.errors[step as usize])
+    }
+
+    fn stamps(&self) -> impl Iterator<Item = u32> + '_ {
+        self.layout.groups().flat_map(move |(group, slots)| {
+            self.layout.slots()[slots].iter().filter_map(move |&simplex| {
+                lifetime(self.history, &self.levels, simplex).map(|lifetime| group.stored_stamp(lifetime))
+            })
+        })
+    }
+
+    fn stream_attribute_values(&self, body: &mut BodyWriter<impl Write>) -> io::Result<()> {
+        let section_start = body.position();
+        for (attribute, record) in self.mesh.attributes.iter().zip(&self.attributes.table) {
+            body.pad_to(section_start + record.values_offset)?;
+            let stride = attribute.stride_bytes();
+            for &vertex in &self.vertices.order {
+                let start = vertex as usize * stride;
+                body.put(&attribute.bytes[start..start + stride])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The header without its checksums.
+    fn header(&self, placement: &Placement) -> Header {
+        let (bounds_min, bounds_max) = bounds(&self.mesh.positions);
+        let n_sections = u32::try_from(placement.records.len()).unwrap_or(u32::MAX);
+        Header {
+            magic: MAGIC,
+            version: VERSION,
+            n_sections,
+            file_bytes: placement.file_bytes,
+            head_checksum: 0,
+            chunk_bytes: CHUNK_BYTES,
+            checksums_checksum: 0,
+            n_corners: u32::try_from(CORNERS).unwrap_or(u32::MAX),
+            n_levels: self.levels.n_levels(),
+            n_vertices: self.mesh.positions.len() as u64,
+            n_slots: self.layout.slots().len() as u64,
+            n_lifetimes: u64::from(self.layout.n_lifetimes()),
+            origin: self.mesh.origin,
+            bounds_min,
+            bounds_max,
+            rounding: self.mesh.rounding,
+            reserved: [0; 7],
+        }
+    }
+
+    fn report(&self, placement: &Placement) -> StoreReport {
+        // Counts were checked to be below 2^32 by history and layout.
+        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+        StoreReport {
+            n_levels: self.levels.n_levels(),
+            n_lifetimes: self.layout.n_lifetimes(),
+            n_slots: count(self.layout.slots().len()),
+            n_vertices: count(self.mesh.positions.len()),
+            n_coarsest: self.levels.simplex_counts().last().copied().unwrap_or(0),
+            max_error: self.errors().last().unwrap_or(0.0),
+            file_bytes: placement.file_bytes,
+        }
+    }
+}
