@@ -1,0 +1,77 @@
+//! Promise: every level of a file is the mesh that a linear scan of its history gives, over a prefix of the vertices.
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
+
+mod support;
+
+use nephrite::Lod;
+use nephrite::history::Levels;
+use proptest::prelude::*;
+use support::synthetic::{decimate, grid};
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn of_any_history_at_every_level(
+        side in 2usize..12, n_removals in 0usize..100, seed: u64, limit in prop::option::of(1u32..40)
+    ) {
+        let mesh = grid(side);
+        let history = decimate(&mesh, n_removals, seed);
+        prop_assert_eq!(history.check(), Ok(()));
+        let lod = Lod::from_bytes(&support::file_bytes(&mesh, &history, limit)).unwrap();
+        lod.verify().unwrap();
+        let levels = Levels::choose(&history, limit).unwrap();
+        support::assert_levels_equal_scans(&lod, &mesh, &history, &levels);
+    }
+}
+
+#[test]
+fn the_first_level_is_the_input_with_its_attributes() {
+    let mesh = grid(40);
+    let history = decimate(&mesh, usize::MAX, 1);
+    let lod = Lod::from_bytes(&support::file_bytes(&mesh, &history, None)).unwrap();
+    let found = lod.at_level(0).to_mesh().unwrap();
+    assert_eq!(support::triangle_set(&found), support::triangle_set(&mesh));
+    assert_eq!(found.origin, mesh.origin);
+    assert_eq!(found.attributes.len(), mesh.attributes.len());
+
+    // The attribute `quality` is the number of the vertex in the input, which tells where each vertex went.
+    let quality: Vec<f64> = bytemuck::pod_collect_to_vec(&found.attributes[1].bytes);
+    for (place, &vertex) in quality.iter().enumerate() {
+        let vertex = vertex as usize;
+        assert_eq!(found.positions[place], mesh.positions[vertex]);
+        assert_eq!(found.attributes[0].bytes[3 * place..][..3], mesh.attributes[0].bytes[3 * vertex..][..3]);
+    }
+    let mut vertices: Vec<usize> = quality.iter().map(|&vertex| vertex as usize).collect();
+    vertices.sort_unstable();
+    assert!(vertices.into_iter().eq(0..mesh.positions.len()));
+}
+
+#[test]
+fn queries_give_the_level_that_a_scan_of_the_curve_gives() {
+    let mesh = grid(60);
+    let history = decimate(&mesh, usize::MAX, 2);
+    let lod = Lod::from_bytes(&support::file_bytes(&mesh, &history, None)).unwrap();
+    let curve: Vec<_> = lod.curve().collect();
+    assert!(curve.len() > 100);
+
+    let mut errors: Vec<f64> =
+        curve.iter().flat_map(|point| [point.error, point.error * 0.999, point.error * 1.001]).collect();
+    errors.extend([0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MIN_POSITIVE]);
+    for error in errors {
+        let expected = curve.iter().rposition(|point| point.error <= error).unwrap_or(0);
+        assert_eq!(lod.at_error(error).level() as usize, expected, "{error}");
+    }
+    for n_triangles in (0..curve[0].triangles as usize + 2).chain([usize::MAX]) {
+        let expected = curve.iter().position(|point| point.triangles as usize <= n_triangles);
+        let cut = lod.at_triangles(n_triangles);
+        assert_eq!(cut.level() as usize, expected.unwrap_or(curve.len() - 1), "{n_triangles}");
+    }
+    for (level, point) in (0..).zip(&curve) {
+        let cut = lod.at_level(level);
+        assert_eq!((cut.error(), cut.n_triangles()), (point.error, point.triangles as usize));
+        assert_eq!(cut.vertex_count(), point.vertices as usize);
+        assert!(cut.n_runs() <= (usize::BITS - (curve.len() - 1).leading_zeros()) as usize + 1);
+    }
+    assert_eq!(lod.at_level(u32::MAX).level(), lod.n_levels() - 1);
+}

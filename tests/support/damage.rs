@@ -1,0 +1,98 @@
+//! Using a file that may be damaged, and sealing it again after an edit.
+
+use nephrite::Lod;
+use nephrite::query::QueryError;
+use nephrite::store::{OpenError, VerifyError};
+use nephrite_formats::neph::{self, Directory, HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind};
+
+/// Where a valid file keeps its checksums.
+pub struct Seal {
+    directory: Directory,
+}
+
+impl Seal {
+    pub fn of(bytes: &[u8]) -> Self {
+        let directory = Directory::read(bytes, bytes.len() as u64).unwrap();
+        Self { directory }
+    }
+
+    /// Offset and length of a section.
+    pub fn section(&self, kind: SectionKind) -> (usize, usize) {
+        let (offset, len) = self.directory.section(kind);
+        (offset as usize, len as usize)
+    }
+
+    /// Makes all checksums of an edited copy of the file right again.
+    pub fn renew(&self, bytes: &mut [u8]) {
+        let body = self.directory.body();
+        let (offset, len) = self.section(SectionKind::Checksums);
+        let chunk_bytes = self.directory.header().chunk_bytes as usize;
+        let checksums: Vec<u64> =
+            bytes[body.start as usize..body.end as usize].chunks(chunk_bytes).map(neph::checksum).collect();
+        bytes[offset..][..len].copy_from_slice(bytemuck::cast_slice(&checksums));
+        let checksums_checksum = neph::checksum(bytemuck::cast_slice(&checksums));
+        edit_header(bytes, |header| header.checksums_checksum = checksums_checksum);
+        self.renew_head(bytes);
+    }
+
+    /// Makes the checksum of header and directory right again.
+    pub fn renew_head(&self, bytes: &mut [u8]) {
+        let n_sections = self.directory.header().n_sections as usize;
+        let directory = bytes[HEADER_BYTES..][..n_sections * SECTION_RECORD_BYTES].to_vec();
+        edit_header(bytes, |header| header.head_checksum = neph::head_checksum(header, &directory));
+    }
+}
+
+/// Changes the header in place.
+pub fn edit_header(bytes: &mut [u8], edit: impl FnOnce(&mut Header)) {
+    let mut header: Header = bytemuck::pod_read_unaligned(&bytes[..HEADER_BYTES]);
+    edit(&mut header);
+    bytes[..HEADER_BYTES].copy_from_slice(bytemuck::bytes_of(&header));
+}
+
+/// What became of a file.
+#[derive(Debug)]
+pub enum Outcome {
+    Refused(OpenError),
+    /// It opened, and every answer was bounded and in range; this is what its verification says.
+    Used(Result<(), VerifyError>),
+}
+
+/// Opens a file, asks everything there is to ask at every level, and checks that each answer is in range.
+pub fn open_and_use(bytes: &[u8]) -> Outcome {
+    let lod = match Lod::from_bytes(bytes) {
+        Ok(lod) => lod,
+        Err(error) => return Outcome::Refused(error),
+    };
+    let verified = lod.verify();
+    let n_slots = lod.indices().len() / lod.n_corners() as usize;
+    let mut buffer = vec![0; lod.indices().len()];
+    let n_levels = lod.n_levels();
+    let mut queries: Vec<_> = (0..n_levels.min(200)).map(|level| lod.at_level(level)).collect();
+    queries.extend([lod.at_error(f64::NAN), lod.at_error(0.1), lod.at_triangles(0), lod.at_triangles(10)]);
+    queries.push(lod.at_level(n_levels.wrapping_add(7)));
+    for cut in queries {
+        let mut end = 0;
+        for run in cut.runs() {
+            assert!(run.range().start >= end && run.range().end <= n_slots);
+            end = run.range().end;
+        }
+        let n_indices = cut.extract_into(&mut buffer).unwrap();
+        assert!(n_indices == cut.n_indices() && n_indices <= buffer.len());
+        assert!(cut.vertices().len() == cut.vertex_count() && cut.error().to_bits() < u64::MAX);
+        match cut.to_mesh() {
+            Ok(mesh) => {
+                assert!(mesh.triangles.as_flattened().iter().all(|&v| (v as usize) < mesh.positions.len()));
+                assert!(
+                    mesh.attributes.iter().all(|a| a.bytes.len() == a.stride_bytes() * mesh.positions.len())
+                );
+            }
+            Err(QueryError::NotTriangles { found }) => assert!(found != 3),
+            Err(_) => assert!(verified.is_err(), "verified, but its levels are damaged"),
+        }
+    }
+    assert_eq!(lod.curve().len(), n_levels as usize);
+    let _ = lod.metadata();
+    assert!(lod.bounding_diagonal() >= 0.0);
+    Outcome::Used(verified)
+}

@@ -1,0 +1,55 @@
+//! What several test files share.
+#![allow(dead_code, reason = "each test file uses its part")]
+#![allow(unreachable_pub, reason = "a test file is no library")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
+
+pub mod damage;
+pub mod synthetic;
+
+use nephrite::history::{History, Levels};
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{Lod, TriangleMesh};
+use std::io::Cursor;
+
+/// The bytes of a file, written to memory.
+pub fn file_bytes(mesh: &TriangleMesh, history: &History<3>, levels: Option<u32>) -> Vec<u8> {
+    let mut stream = Cursor::new(Vec::new());
+    write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions { levels }).unwrap();
+    stream.into_inner()
+}
+
+/// A triangle by its corners' positions, from the least corner on, so that orientation stays.
+pub fn canonical(mesh: &TriangleMesh, triangle: [u32; 3]) -> [[u32; 3]; 3] {
+    let corners = triangle.map(|v| mesh.positions[v as usize].map(f32::to_bits));
+    let least = (0..3).min_by_key(|&i| corners[i]).unwrap();
+    std::array::from_fn(|i| corners[(least + i) % 3])
+}
+
+/// The triangles of a mesh as a sorted list that does not depend on the numbering of vertices.
+pub fn triangle_set(mesh: &TriangleMesh) -> Vec<[[u32; 3]; 3]> {
+    let mut triangles: Vec<_> = mesh.triangles.iter().map(|&triangle| canonical(mesh, triangle)).collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+/// The mesh at one step by a linear scan of its history, with the vertices of the input.
+pub fn scan(mesh: &TriangleMesh, history: &History<3>, step: u32) -> TriangleMesh {
+    let alive = |id: &usize| history.birth[*id] <= step && step < history.death[*id];
+    let triangles = (0..history.simplices.len()).filter(alive).map(|id| history.simplices[id]).collect();
+    TriangleMesh { triangles, ..mesh.clone() }
+}
+
+/// Compares every level of a file with a linear scan of the history it was made from.
+pub fn assert_levels_equal_scans(lod: &Lod, mesh: &TriangleMesh, history: &History<3>, levels: &Levels) {
+    assert_eq!(lod.n_levels(), levels.n_levels());
+    for (level, &step) in (0..).zip(levels.steps()) {
+        let cut = lod.at_level(level);
+        assert_eq!(cut.error(), history.errors[step as usize]);
+        let found = cut.to_mesh().unwrap();
+        let expected = scan(mesh, history, step);
+        assert_eq!(triangle_set(&found), triangle_set(&expected), "level {level}");
+        let n_alive = history.vertex_death.iter().filter(|&&death| death > step).count();
+        assert_eq!(cut.vertex_count(), n_alive, "level {level}");
+    }
+}
