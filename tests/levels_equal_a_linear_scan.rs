@@ -3,10 +3,12 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::history::Levels;
+use nephrite::history::{History, Levels, NEVER};
+use nephrite::query::QueryError;
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{Lod, TriangleMesh};
 use proptest::prelude::*;
-use support::synthetic::{decimate, grid};
+use support::synthetic::{Random, decimate, grid};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
@@ -74,4 +76,41 @@ fn queries_give_the_level_that_a_scan_of_the_curve_gives() {
         assert!(cut.n_runs() <= (usize::BITS - (curve.len() - 1).leading_zeros()) as usize + 1);
     }
     assert_eq!(lod.at_level(u32::MAX).level(), lod.n_levels() - 1);
+}
+
+#[test]
+fn tetrahedra_are_stored_like_triangles() {
+    let mut random = Random(8);
+    let (n_steps, n_vertices) = (40u32, 60u32);
+    let mesh = TriangleMesh { positions: vec![[0.5; 3]; n_vertices as usize], ..TriangleMesh::default() };
+    let mut history = History::<4> {
+        vertex_death: (0..n_vertices).map(|v| if v < 20 { NEVER } else { n_vertices - v }).collect(),
+        errors: (0..=n_steps).map(f64::from).collect(),
+        ..History::default()
+    };
+    for _ in 0..300 {
+        let birth = random.below(2) as u32 * random.below(n_steps as usize) as u32;
+        let death = birth + 1 + random.below((n_steps - birth) as usize) as u32;
+        // Every vertex below this one is there until the death.
+        let n_usable = (n_vertices - death) as usize;
+        history.simplices.push(std::array::from_fn(|_| random.below(n_usable + 1) as u32));
+        history.birth.push(birth);
+        history.death.push(death);
+    }
+    let mut stream = std::io::Cursor::new(Vec::new());
+    let options = StoreOptions { levels: Some(u32::MAX) };
+    write_to(&mut stream, &mesh, &history, &Provenance::default(), &options).unwrap();
+    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
+    lod.verify().unwrap();
+    assert_eq!(lod.n_corners(), 4);
+    let levels = Levels::choose(&history, options.levels).unwrap();
+    for (level, &step) in (0..).zip(levels.steps()) {
+        let cut = lod.at_level(level);
+        let mut indices = vec![0; cut.n_indices()];
+        cut.extract_into(&mut indices).unwrap();
+        assert!(indices.iter().all(|&index| (index as usize) < cut.vertex_count()));
+        let n_alive = (0..300).filter(|&id| history.birth[id] <= step && step < history.death[id]).count();
+        assert_eq!(cut.n_triangles(), n_alive);
+        assert_eq!(cut.to_mesh(), Err(QueryError::NotTriangles { found: 4 }));
+    }
 }

@@ -166,6 +166,7 @@ fn octaves(finest: u32, count: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// Two triangles fewer per step, as when an interior vertex is removed.
     fn halving(n_steps: u32) -> (Vec<f64>, Vec<u32>) {
@@ -214,6 +215,35 @@ mod tests {
         assert_eq!(choose_steps(&[0.0, 1.0], &[8, 8], None), [0, 1]);
         assert_eq!(choose_steps(&[0.0], &[0], None), [0]);
         assert_eq!(choose_steps(&[0.0, 1.0], &[0, 0], Some(5)), [0, 1]);
+    }
+
+    proptest! {
+        #[test]
+        fn no_budget_loses_more_than_one_interval(
+            drops in prop::collection::vec((0u32..6, any::<bool>()), 1..300), limit in prop::option::of(2u32..60)
+        ) {
+            let finest = 10 + drops.iter().map(|drop| drop.0).sum::<u32>();
+            let (mut errors, mut alive) = (vec![0.0], vec![finest]);
+            for (drop, is_rise) in drops {
+                errors.push(errors[errors.len() - 1] + if is_rise { 1.0 } else { 0.0 });
+                alive.push(alive[alive.len() - 1] - drop);
+            }
+            let steps = choose_steps(&errors, &alive, limit);
+            let last = alive.len() - 1;
+            prop_assert_eq!((steps[0], steps[steps.len() - 1] as usize), (0, last));
+            prop_assert!(limit.is_none_or(|limit| steps.len() <= limit as usize));
+            let span = octaves(finest, alive[last]);
+            let interval = limit.map_or((64f64 / 63.0).log2(), |limit| span / f64::from(limit - 1));
+            for step in 1..last {
+                // A step that was a choice and is no level has nearly as many triangles as the level before it, or as few
+                // as the last one.
+                let kept = steps.partition_point(|&kept| kept as usize <= step) - 1;
+                let finer = alive[steps[kept] as usize];
+                let is_choice = errors[step + 1] > errors[step] && alive[step] > alive[last];
+                prop_assert!(!is_choice || octaves(finer, alive[step]) < interval + 1e-9);
+                prop_assert!(steps[kept] as usize != step || is_choice);
+            }
+        }
     }
 
     #[test]
