@@ -31,7 +31,7 @@ pub struct Over {
 }
 
 impl Over {
-    /// Vertices over the triangle of three ring indices, in ring order.
+    /// Vertices over the triangle of three ring indices below [`MAX_CORNERS`], in ring order.
     pub fn new([a, b, c]: [u8; 3]) -> Self {
         [[a, b], [b, c], [c, a]].into_iter().fold(Self { mask: 0, sides: 0 }, |over, [i, j]| {
             let bit = pair_bit(i.min(j), i.max(j));

@@ -3,7 +3,7 @@
 
 use super::accumulated::{Accumulated, Sampler};
 use super::removed::{RemovedVertices, nearest};
-use super::{Errors, Limits};
+use super::{Errors, Limits, Replacement};
 use crate::geometry::distance::point_segment_distance_sq;
 use crate::mesh::{Filling, Hole, Surface};
 
@@ -43,7 +43,8 @@ impl Estimate {
     }
 
     /// Errors of replacing the star of `hole` by `filling`. Stops early once a limit is passed.
-    pub fn errors(&self, surface: &Surface, hole: &Hole, filling: &Filling, limits: Limits) -> Errors {
+    pub fn errors(&self, replacement: Replacement<'_>, limits: Limits) -> Errors {
+        let Replacement { surface, hole, filling } = replacement;
         let mut errors = Errors::default();
         if !hole.closed {
             errors.local = boundary_error(hole);
@@ -76,8 +77,9 @@ impl Estimate {
         if hole.closed { error } else { error.max(boundary_error(hole)) }
     }
 
-    /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
-    pub fn commit(&mut self, surface: &Surface, hole: &Hole, filling: &Filling) {
+    /// Carries the estimates over to the filling.
+    pub fn commit(&mut self, replacement: Replacement<'_>) {
+        let Replacement { surface, hole, filling } = replacement;
         let n = filling.triangles.len();
         let errors: Vec<f64> = (0..n).map(|i| self.accumulated_error(hole, filling, i)).collect();
         if let Some(accumulated) = &mut self.accumulated {

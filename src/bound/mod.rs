@@ -11,6 +11,17 @@ use certified::{Certified, Transfer};
 use covered::Covered;
 use estimate::Estimate;
 
+/// A star about to be replaced by a filling.
+#[derive(Clone, Copy, Debug)]
+pub struct Replacement<'a> {
+    /// The mesh before it.
+    pub surface: &'a Surface,
+    /// The star.
+    pub hole: &'a Hole,
+    /// What closes it; its triangles go into the first slots of the star.
+    pub filling: &'a Filling,
+}
+
 /// The error of the current mesh, in one meaning or the other.
 #[derive(Clone, Debug)]
 pub enum GlobalError {
@@ -21,18 +32,11 @@ pub enum GlobalError {
 }
 
 impl GlobalError {
-    /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
-    pub fn commit(
-        &mut self,
-        surface: &Surface,
-        hole: &Hole,
-        filling: &Filling,
-        covered: &mut Covered,
-        transfer: &mut Transfer,
-    ) {
+    /// Takes over what the replacement makes of the errors.
+    pub fn commit(&mut self, replacement: Replacement<'_>, covered: &mut Covered, transfer: &mut Transfer) {
         match self {
-            Self::Certified(certified) => certified.commit(surface, hole, filling, covered, transfer),
-            Self::Estimate(estimate) => estimate.commit(surface, hole, filling),
+            Self::Certified(certified) => certified.commit(replacement, covered, transfer),
+            Self::Estimate(estimate) => estimate.commit(replacement),
         }
     }
 }

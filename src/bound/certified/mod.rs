@@ -21,10 +21,11 @@ pub mod dual_tree;
 pub mod source;
 mod transfer;
 
+use super::Replacement;
 use super::covered::Covered;
 use super::removed::RemovedVertices;
 use crate::geometry::vector::widen;
-use crate::mesh::{Filling, Hole, Surface};
+use crate::mesh::{Hole, Surface};
 use chains::Chains;
 use source::SourceEdges;
 pub use transfer::Transfer;
@@ -68,32 +69,23 @@ impl Certified {
         }
     }
 
-    /// A bound on the displacement inside `hole` once `filling` closes it, or some value above `limit` if the bound is
-    /// above that. `covered` holds [`Self::vertices_in`] the hole. O(vertices and edges mapped into the star).
+    /// A bound on the displacement inside the hole once it is closed, or some value above `limit` if the bound is above
+    /// that. `covered` holds [`Self::vertices_in`] the hole. O(vertices and edges mapped into the star).
     pub fn bound(
         &self,
-        surface: &Surface,
-        hole: &Hole,
-        filling: &Filling,
+        replacement: Replacement<'_>,
         covered: &Covered,
         limit: f64,
         transfer: &mut Transfer,
     ) -> f64 {
-        let removal = Removal { certified: self, surface, hole, filling, covered };
-        transfer.displacement(removal, limit) + self.slack
+        transfer.displacement(Removal { certified: self, replacement, covered }, limit) + self.slack
     }
 
-    /// Takes over `filling`, whose triangles go into the first slots of the star of `hole`.
-    pub fn commit(
-        &mut self,
-        surface: &Surface,
-        hole: &Hole,
-        filling: &Filling,
-        covered: &mut Covered,
-        transfer: &mut Transfer,
-    ) {
+    /// Carries the map over to the filling.
+    pub fn commit(&mut self, replacement: Replacement<'_>, covered: &mut Covered, transfer: &mut Transfer) {
+        let Replacement { surface, hole, .. } = replacement;
         covered.gather(surface, hole, self.vertices_in(hole));
-        let change = transfer.change(Removal { certified: self, surface, hole, filling, covered });
+        let change = transfer.change(Removal { certified: self, replacement, covered });
         self.apply(hole, change);
     }
 

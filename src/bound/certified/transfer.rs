@@ -3,10 +3,10 @@
 use super::chains::Portion;
 use super::dual_tree::{Crossing, DualTree};
 use super::{Certified, NONE, NOT_ON_RIM};
+use crate::bound::Replacement;
 use crate::bound::covered::{Covered, Over};
 use crate::geometry::distance::{Segment, point_segment_distance_sq, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
-use crate::mesh::{Filling, Hole, Surface};
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
@@ -81,9 +81,7 @@ enum End {
 #[derive(Clone, Copy)]
 pub(super) struct Removal<'a> {
     pub(super) certified: &'a Certified,
-    pub(super) surface: &'a Surface,
-    pub(super) hole: &'a Hole,
-    pub(super) filling: &'a Filling,
+    pub(super) replacement: Replacement<'a>,
     pub(super) covered: &'a Covered,
 }
 
@@ -128,7 +126,7 @@ impl Transfer {
     /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared displacement, or the
     /// first above the limit.
     fn assign_vertices(&mut self, removal: Removal<'_>, limit_sq: f64) -> f64 {
-        let Removal { surface, hole, filling, covered, .. } = removal;
+        let Removal { replacement: Replacement { surface, hole, filling }, covered, .. } = removal;
         self.tree.build(hole, filling);
         self.labels.start(surface.n_vertices());
         let mut largest_sq = 0.0_f64;
@@ -148,7 +146,7 @@ impl Transfer {
 
     /// Source edges whose chain, old or new, has more than one portion and passes through the hole; in ascending order.
     fn collect_edges(&mut self, removal: Removal<'_>) {
-        let Removal { certified, hole, covered, .. } = removal;
+        let Removal { certified, replacement: Replacement { hole, .. }, covered } = removal;
         self.edges.clear();
         for &v in &covered.vertices {
             let Some(label) = self.labels.get(v) else { continue };
@@ -174,7 +172,7 @@ impl Transfer {
 
     /// Puts the new chain of `edge` into `self.new`; the largest squared displacement of a crossing that is new.
     fn reroute(&mut self, removal: Removal<'_>, edge: u32) -> f64 {
-        let Removal { certified, surface, hole, .. } = removal;
+        let Removal { certified, replacement: Replacement { surface, hole, .. }, .. } = removal;
         let [low, high] = certified.source.ends(edge);
         let segment = [surface.point(low), surface.point(high)];
         self.old.clear();
@@ -259,7 +257,7 @@ impl Transfer {
                 self.path.iter().rev().take_while(|crossing| crossing.edge.contains(&corner)).count();
             self.path.truncate(self.path.len() - n_turns);
         }
-        debug_assert!(usize::from(first) < removal.filling.triangles.len());
+        debug_assert!(usize::from(first) < removal.replacement.filling.triangles.len());
         first
     }
 }
@@ -267,12 +265,12 @@ impl Transfer {
 impl Removal<'_> {
     /// Index in the star of the triangle in `slot`.
     fn star_index(&self, slot: u32) -> Option<usize> {
-        self.hole.slots.iter().position(|&s| s == slot)
+        self.replacement.hole.slots.iter().position(|&s| s == slot)
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "ring indices stay below MAX_VALENCE + 1")]
     fn ring_index(&self, v: u32) -> u8 {
-        let found = self.hole.ring.iter().position(|&r| r == v);
+        let found = self.replacement.hole.ring.iter().position(|&r| r == v);
         debug_assert!(found.is_some(), "a source edge that ends in the hole ends at its ring");
         found.unwrap_or_default() as u8
     }
@@ -281,7 +279,7 @@ impl Removal<'_> {
     /// the hole only when it ends at the removed vertex.
     fn only_slot(&self, low: u32, high: u32) -> u32 {
         match [low, high].map(|v| self.certified.slot_of[v as usize]) {
-            [NONE, NONE] => self.hole.slots[0],
+            [NONE, NONE] => self.replacement.hole.slots[0],
             [NONE, slot] | [slot, _] => slot,
         }
     }
@@ -290,8 +288,13 @@ impl Removal<'_> {
     /// where that is no farther than `enough_sq`, the nearest one otherwise.
     fn near(&self, at: usize, p: Vector, enough_sq: f64) -> (u8, f64) {
         let is_over = |&(_, &triangle): &(u8, &[u8; 3])| self.covered.is_over(at, Over::new(triangle));
-        if let Some((label, _)) = (0..).zip(&self.filling.triangles).find(is_over) {
-            let distance_sq = point_triangle_distance_sq(p, &self.filling.triangle(self.hole, label.into()));
+        let candidates =
+            if self.covered.has_sides() { self.replacement.filling.triangles.as_slice() } else { &[] };
+        if let Some((label, _)) = (0..).zip(candidates).find(is_over) {
+            let distance_sq = point_triangle_distance_sq(
+                p,
+                &self.replacement.filling.triangle(self.replacement.hole, label.into()),
+            );
             if distance_sq <= enough_sq {
                 return (label, distance_sq);
             }
@@ -301,24 +304,32 @@ impl Removal<'_> {
 
     /// Whether the filling's triangle `label` has the corner `v`.
     fn has_corner(&self, label: u8, v: u32) -> bool {
-        self.filling.corners(self.hole, label.into()).contains(&v)
+        self.replacement.filling.corners(self.replacement.hole, label.into()).contains(&v)
     }
 
     fn nearest(&self, p: Vector) -> (u8, f64) {
         (0..)
-            .zip(0..self.filling.triangles.len())
-            .map(|(label, i)| (label, point_triangle_distance_sq(p, &self.filling.triangle(self.hole, i))))
+            .zip(0..self.replacement.filling.triangles.len())
+            .map(|(label, i)| {
+                (
+                    label,
+                    point_triangle_distance_sq(
+                        p,
+                        &self.replacement.filling.triangle(self.replacement.hole, i),
+                    ),
+                )
+            })
             .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
     }
 
     /// End points of the ring edge after ring vertex `i`; for the last one of a chain, of the new boundary edge.
     fn ring_edge(&self, i: usize) -> Segment {
-        [self.hole.points[i], self.hole.points[self.hole.next(i)]]
+        [self.replacement.hole.points[i], self.replacement.hole.points[self.replacement.hole.next(i)]]
     }
 
     /// For a source vertex on the boundary: the ring edge that its boundary edge is, or becomes.
     fn rim_edge(&self, v: u32) -> Option<usize> {
-        let hole = self.hole;
+        let hole = self.replacement.hole;
         let new_edge = hole.n_ring() - 1;
         if v == hole.removed {
             return (!hole.closed).then_some(new_edge);
@@ -328,7 +339,7 @@ impl Removal<'_> {
             return None;
         }
         let slot = self.certified.slot_of[v as usize];
-        let corners = self.surface.corners(slot);
+        let corners = self.replacement.surface.corners(slot);
         let (from, to) = (corners[usize::from(corner)], corners[(usize::from(corner) + 1) % 3]);
         let is_replaced = from == hole.removed || to == hole.removed;
         Some(if is_replaced { new_edge } else { self.star_index(slot).unwrap_or_default() })
@@ -337,13 +348,13 @@ impl Removal<'_> {
     /// The corner of its new triangle at which the boundary edge of `v` starts.
     fn new_rim(&self, v: u32) -> Option<u8> {
         let from = self.rim_edge(v)?;
-        let to = self.hole.next(from);
+        let to = self.replacement.hole.next(from);
         let runs = |&[a, b, c]: &[u8; 3]| {
             (0..)
                 .zip([[a, b], [b, c], [c, a]])
                 .find(|&(_, [i, j])| usize::from(i) == from && usize::from(j) == to)
         };
-        self.filling.triangles.iter().find_map(runs).map(|(corner, _)| corner)
+        self.replacement.filling.triangles.iter().find_map(runs).map(|(corner, _)| corner)
     }
 
     /// Takes out what a chain does not need: going over an edge and straight back, and turning about a vertex that is
@@ -381,15 +392,17 @@ impl Removal<'_> {
     }
 
     fn stays(&self, v: u32) -> bool {
-        v != self.hole.removed && self.certified.is_alive(v)
+        v != self.replacement.hole.removed && self.certified.is_alive(v)
     }
 
     /// Whether the triangle in `slot`, after the removal, has the corner `v`.
     fn touches(&self, slot: u32, v: u32) -> bool {
         match self.star_index(slot) {
-            Some(i) if i < self.filling.triangles.len() => self.filling.corners(self.hole, i).contains(&v),
+            Some(i) if i < self.replacement.filling.triangles.len() => {
+                self.replacement.filling.corners(self.replacement.hole, i).contains(&v)
+            }
             Some(_) => false,
-            None => self.surface.corners(slot).contains(&v),
+            None => self.replacement.surface.corners(slot).contains(&v),
         }
     }
 }

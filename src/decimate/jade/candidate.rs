@@ -7,7 +7,7 @@ use super::triangulate::{Polygons, triangulate};
 use crate::bound::certified::{Certified, Transfer};
 use crate::bound::covered::Covered;
 use crate::bound::estimate::Estimate;
-use crate::bound::{Errors, GlobalError, Limits};
+use crate::bound::{Errors, GlobalError, Limits, Replacement};
 use crate::mesh::{Filling, Hole, NoHole, Seams, Surface};
 
 /// All that a candidate is judged by.
@@ -85,7 +85,7 @@ fn judge_estimate(
         return None;
     }
     flip_edges(situation.surface, hole, estimate.sampler(), situation.aspect_loss, filling);
-    Some(estimate.errors(situation.surface, hole, filling, limits))
+    Some(estimate.errors(Replacement { surface: situation.surface, hole, filling }, limits))
 }
 
 /// The filling that fits the input best, or the paper's where the hole is too large for that; then the proof.
@@ -102,7 +102,7 @@ fn judge_certified(
     let global = match fit(surface, hole, class, covered, polygons, filling) {
         Some(fitted_sq) if fitted_sq > limits.global * limits.global => fitted_sq.sqrt(),
         None if !triangulate(surface, hole, class, polygons, filling) => return None,
-        _ => certified.bound(surface, hole, filling, covered, limits.global, transfer),
+        _ => certified.bound(Replacement { surface, hole, filling }, covered, limits.global, transfer),
     };
     Some(Errors { local: 0.0, global })
 }

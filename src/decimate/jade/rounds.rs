@@ -3,7 +3,7 @@
 use super::candidate::{Scratch, Situation, Verdict, judge};
 use super::thresholds::Thresholds;
 use crate::bound::accumulated::round_up;
-use crate::bound::{GlobalError, Limits};
+use crate::bound::{GlobalError, Limits, Replacement};
 use crate::history::Recorder;
 use crate::mesh::{Filling, Hole, Seams, Surface};
 use rayon::prelude::*;
@@ -216,7 +216,7 @@ fn remove(decimation: &mut Decimation, scratch: &mut Scratch, step_error: f64) {
     recorder.step(step_error);
     let dying = |slot: u32| seams.as_ref().map_or_else(|| surface.corners(slot), |seams| seams.corners(slot));
     hole.slots.iter().for_each(|&slot| recorder.death(slot, dying(slot)));
-    error.commit(surface, hole, filling, covered, transfer);
+    error.commit(Replacement { surface, hole, filling }, covered, transfer);
     let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
     let vertices = seams.as_ref().map(|seams| seam_vertices(surface, seams, hole, filling));
     match &vertices {
