@@ -18,9 +18,10 @@
 //!
 //! **Finding the prefixes.** Searching each list for the stamp costs a few cache misses per height, some 40 in a tree of
 //! a million levels. A table of prefix lengths by height and level, 4 bytes each, needs the lists' starts as well, one
-//! random access per height. We keep the finished runs per level, empty ones left out: an offset and some ten runs of
-//! 8 bytes, two to three adjacent cache lines, whatever the size of the tree. With a million levels and 100 million
-//! lifetimes that is about 90 MB beside 3 GB of slots; files with the usual few hundred levels spend a few dozen KiB.
+//! random access per height. We keep the finished runs per level, empty ones left out: an offset and some 10 to 14 runs of
+//! 8 bytes, two to three adjacent cache lines, whatever the size of the tree. Measured with a million levels and 100 million
+//! lifetimes that is 118 MB beside 3.2 GB of slots and stamps, and a stab takes 0.43 us in the median, 0.85 us at the 99th
+//! percentile, with at most 21 runs. Files with the usual few hundred levels spend a few dozen KiB.
 //!
 //! **The other stamp.** A slot's place gives one of its stamps; the other one is kept beside the slots
 //! ([`Group::stored_stamp`]), where a stab never looks.
