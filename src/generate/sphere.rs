@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use nephrite_formats::TriangleMesh;
 
 use super::mesh_of;
+use crate::geometry::vector::{cross, dot, length, scale, sub};
 
 /// Largest frequency: 20 million triangles.
 const MAX_FREQUENCY: u32 = 1000;
@@ -76,8 +77,7 @@ impl Surface {
                     *sum += f64::from(weight) * coordinate;
                 }
             }
-            let length = dot(sum, sum).sqrt();
-            self.positions.push(sum.map(|coordinate| coordinate / length));
+            self.positions.push(scale(sum, 1.0 / length(sum)));
             next
         })
     }
@@ -98,8 +98,7 @@ fn icosahedron() -> [[f64; 3]; 12] {
 /// All triples of corners that are neighbours of one another, counter-clockwise from outside.
 fn icosahedron_faces(corners: &[[f64; 3]; 12]) -> Vec<[u32; 3]> {
     let near = |a: u32, b: u32| {
-        let [a, b] = [corners[a as usize], corners[b as usize]];
-        let difference = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+        let difference = sub(corners[a as usize], corners[b as usize]);
         dot(difference, difference) < 5.0
     };
     let mut faces = Vec::with_capacity(20);
@@ -115,14 +114,6 @@ fn icosahedron_faces(corners: &[[f64; 3]; 12]) -> Vec<[u32; 3]> {
         }
     }
     faces
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]
@@ -146,8 +137,8 @@ mod tests {
     fn lies_on_the_unit_sphere_and_encloses_its_volume() {
         let mesh = sphere(40);
         for position in &mesh.positions {
-            let length = dot(position.map(f64::from), position.map(f64::from)).sqrt();
-            assert!((length - 1.0).abs() < 1e-7, "radius {length}");
+            let radius = length(position.map(f64::from));
+            assert!((radius - 1.0).abs() < 1e-7, "radius {radius}");
         }
         let ball = 4.0 / 3.0 * std::f64::consts::PI;
         let volume = Topology::volume(&mesh);
