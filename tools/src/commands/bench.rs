@@ -1,0 +1,120 @@
+//! `nephrite bench`: how fast this machine takes levels out of a file, beside copying the same bytes plainly.
+
+use std::hint::black_box;
+use std::path::PathBuf;
+
+use clap::Args;
+use nephrite::Lod;
+use nephrite::query::QueryError;
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::report::Report;
+use crate::{figures, files, stopwatch};
+
+/// Measure how fast levels come out of a file on this machine.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// File that `build` wrote
+    file: PathBuf,
+}
+
+/// Cuts measured at most, spread over the levels evenly in the logarithm of the triangle count.
+const N_CUTS: u32 = 12;
+
+/// What one cut costs.
+struct Measured {
+    level: u32,
+    n_triangles: usize,
+    n_runs: usize,
+    query_ns: f64,
+    extract_triangles_per_second: f64,
+    memcpy_triangles_per_second: f64,
+}
+
+impl Measured {
+    /// Extraction as a part of memcpy.
+    fn ratio(&self) -> f64 {
+        self.extract_triangles_per_second / self.memcpy_triangles_per_second
+    }
+
+    fn row(&self) -> [String; 7] {
+        [
+            self.level.to_string(),
+            figures::count(self.n_triangles),
+            self.n_runs.to_string(),
+            format!("{:.0} ns", self.query_ns),
+            format!("{:.0}", self.extract_triangles_per_second / 1e6),
+            format!("{:.0}", self.memcpy_triangles_per_second / 1e6),
+            format!("{:.2}", self.ratio()),
+        ]
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "level": self.level,
+            "triangles": self.n_triangles,
+            "runs": self.n_runs,
+            "query_ns": self.query_ns,
+            "extract_triangles_per_second": self.extract_triangles_per_second,
+            "memcpy_triangles_per_second": self.memcpy_triangles_per_second,
+            "ratio": self.ratio(),
+        })
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
+    let lod = files::open_lod(&arguments.file)?;
+    let mut cuts = Vec::new();
+    for level in spread_levels(&lod) {
+        cuts.push(measure(&lod, level).map_err(|source| Failure::file(&arguments.file, source))?);
+    }
+    let rows: Vec<_> = cuts.iter().map(Measured::row).collect();
+    let headings = ["level", "triangles", "runs", "query", "extract Mtri/s", "memcpy Mtri/s", "ratio"];
+    Ok(Report {
+        text: figures::table(headings, &rows),
+        json: json!({ "cuts": cuts.iter().map(Measured::json).collect::<Vec<_>>() }),
+    })
+}
+
+/// Levels whose triangle counts are evenly apart in the logarithm, each once, finest first.
+fn spread_levels(lod: &Lod) -> Vec<u32> {
+    let [finest, coarsest] =
+        [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_triangles().max(1) as f64);
+    let mut levels: Vec<u32> = (0..N_CUTS)
+        .map(|cut| {
+            let wanted = finest * (coarsest / finest).powf(f64::from(cut) / f64::from(N_CUTS - 1));
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two counts")]
+            lod.at_triangles(wanted.round() as usize).level()
+        })
+        .collect();
+    levels.dedup();
+    levels
+}
+
+fn measure(lod: &Lod, level: u32) -> Result<Measured, QueryError> {
+    let cut = lod.at_level(level);
+    let n_indices = cut.n_indices();
+    let [mut extracted, mut copied] = [vec![0; n_indices], vec![0; n_indices]];
+    cut.extract_into(&mut extracted)?;
+    let source = extracted.clone();
+    let [extract_seconds, memcpy_seconds] = stopwatch::in_turn(
+        || _ = black_box(cut.extract_into(black_box(&mut extracted))),
+        || black_box(&mut copied).copy_from_slice(black_box(&source)),
+    );
+    let error = cut.error();
+    let query_seconds = stopwatch::alone(|| {
+        for run in lod.at_error(black_box(error)).runs() {
+            black_box(run);
+        }
+    });
+    let n_triangles = cut.n_triangles();
+    Ok(Measured {
+        level,
+        n_triangles,
+        n_runs: cut.n_runs(),
+        query_ns: query_seconds * 1e9,
+        extract_triangles_per_second: n_triangles as f64 / extract_seconds,
+        memcpy_triangles_per_second: n_triangles as f64 / memcpy_seconds,
+    })
+}

@@ -1,0 +1,270 @@
+//! `nephrite build`: a mesh in, every level of detail of it out.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::{Args, ValueEnum};
+use nephrite::decimate::jade::JadeOptions;
+use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
+use nephrite::{Bound, Build, BuildError, BuildOptions, Method, TriangleMesh};
+use nephrite_formats::ReadReport;
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::length::{Length, LengthError};
+use crate::progress::BuildBar;
+use crate::report::Report;
+use crate::threads::Threads;
+use crate::{figures, files, interrupt};
+
+/// Turn a mesh into a file that holds every level of detail of it.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Mesh to read: PLY, OBJ, STL, OFF, glTF or GLB
+    mesh: PathBuf,
+
+    /// File to write
+    #[arg(short, long, value_name = "OUT.neph")]
+    output: PathBuf,
+
+    /// Stop at this error (a length, or with % in percent of the diagonal); without it, go as far as possible
+    #[arg(long, value_name = "E", value_parser = positive_length)]
+    max_error: Option<Length>,
+
+    /// What the error of a level means
+    #[arg(long, value_enum, default_value_t = BoundName::Certified)]
+    bound: BoundName,
+
+    /// Keep at most this many levels; without it, each has about 63/64 of the triangles of the one before
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    levels: Option<u32>,
+
+    /// Angle between the normals at an edge, in degrees, from which the edge is a feature
+    #[arg(long, value_name = "DEG", default_value_t = 60.0, value_parser = angle)]
+    feature_angle: f64,
+
+    /// Decimator
+    #[arg(long, value_enum, default_value_t = MethodName::Jade)]
+    method: MethodName,
+
+    #[command(flatten)]
+    threads: Threads,
+
+    #[command(flatten)]
+    jade: JadeArguments,
+}
+
+/// Constants of the JADE decimator, by their names in the paper.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options of the JADE decimator")]
+struct JadeArguments {
+    /// The first limit on the local error is the largest one divided by this
+    #[arg(long = "jade-k", value_name = "K", default_value_t = JadeOptions::default().k, value_parser = at_least_one)]
+    k: f64,
+
+    /// Factor from one iteration's limit to the next
+    #[arg(long = "jade-c1", value_name = "C1", default_value_t = JadeOptions::default().c1, value_parser = above_one)]
+    c1: f64,
+
+    /// Limit on the global error as a multiple of that on the local error
+    #[arg(long = "jade-c2", value_name = "C2", default_value_t = JadeOptions::default().c2, value_parser = from_one_to_sixteen)]
+    c2: f64,
+
+    /// How much worse than before a flipped edge may make the aspect ratio, as a part of it
+    #[arg(
+        long = "jade-aspect-loss",
+        value_name = "PART",
+        default_value_t = JadeOptions::default().aspect_loss,
+        value_parser = part
+    )]
+    aspect_loss: f64,
+}
+
+/// The decimators, as they are typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// Vertex removal with retriangulation under a global error bound
+    Jade,
+}
+
+/// The bounds, as they are typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BoundName {
+    /// A proof: the two-sided Hausdorff distance to the input is at most the error
+    Certified,
+    /// The JADE paper's estimate: the larger of the two below
+    Joint,
+    /// The paper's estimate from the removed vertices and their nearest triangles
+    Removed,
+    /// The paper's estimate from the errors of all removals at a place, added up
+    Accumulated,
+}
+
+impl From<MethodName> for Method {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Jade => Self::Jade,
+        }
+    }
+}
+
+impl From<BoundName> for Bound {
+    fn from(name: BoundName) -> Self {
+        match name {
+            BoundName::Certified => Self::Certified,
+            BoundName::Joint => Self::Joint,
+            BoundName::Removed => Self::Removed,
+            BoundName::Accumulated => Self::Accumulated,
+        }
+    }
+}
+
+fn number(text: &str, expected: &'static str, holds: impl Fn(f64) -> bool) -> Result<f64, &'static str> {
+    text.parse().ok().filter(|&value: &f64| value.is_finite() && holds(value)).ok_or(expected)
+}
+
+fn angle(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected an angle from 0 to 180 degrees", |value| (0.0..=180.0).contains(&value))
+}
+
+fn at_least_one(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number of at least 1", |value| value >= 1.0)
+}
+
+fn above_one(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number above 1 and at most 16", |value| value > 1.0 && value <= 16.0)
+}
+
+fn from_one_to_sixteen(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number from 1 to 16", |value| (1.0..=16.0).contains(&value))
+}
+
+fn part(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number from 0 to 1", |value| (0.0..=1.0).contains(&value))
+}
+
+fn positive_length(text: &str) -> Result<Length, LengthError> {
+    text.parse().and_then(|length: Length| if length.is_zero() { Err(LengthError::Zero) } else { Ok(length) })
+}
+
+impl Arguments {
+    fn options(&self, bounding_diagonal: f64) -> BuildOptions {
+        let JadeArguments { k, c1, c2, aspect_loss } = self.jade;
+        BuildOptions {
+            method: self.method.into(),
+            bound: self.bound.into(),
+            max_error: self.max_error.map(|length| length.in_mesh_units(bounding_diagonal)),
+            feature_angle_degrees: self.feature_angle,
+            jade: JadeOptions { k, c1, c2, aspect_loss },
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
+    let start = Instant::now();
+    interrupt::listen();
+    files::check_output(&arguments.output, &[&arguments.mesh])?;
+    arguments.threads.run(|| {
+        let (mesh, read) = files::read_mesh(&arguments.mesh)?;
+        interrupt::check()?;
+        let bounding_diagonal = nephrite::bounding_diagonal(&mesh);
+        let build = decimate(arguments, &mesh, bounding_diagonal)?;
+        interrupt::check()?;
+        let stored = write(arguments, &mesh, &build, bounding_diagonal)?;
+        let outcome =
+            Outcome { mesh, read, build, stored, bounding_diagonal, seconds: start.elapsed().as_secs_f64() };
+        Ok(Report { text: outcome.text(arguments), json: outcome.json() })
+    })?
+}
+
+/// Runs the decimator under a progress bar.
+fn decimate(arguments: &Arguments, mesh: &TriangleMesh, bounding_diagonal: f64) -> Result<Build, Failure> {
+    let bar = BuildBar::new(bounding_diagonal);
+    let options = arguments.options(bounding_diagonal);
+    nephrite::build(mesh, &options, &|progress| bar.observe(progress)).map_err(|source| match source {
+        BuildError::Interrupted => Failure::Interrupted,
+        source => Failure::file(&arguments.mesh, source),
+    })
+}
+
+/// Publishes the file, with all that a reader may want to know of its making.
+fn write(
+    arguments: &Arguments,
+    mesh: &TriangleMesh,
+    build: &Build,
+    bounding_diagonal: f64,
+) -> Result<StoreReport, Failure> {
+    let options = arguments.options(bounding_diagonal);
+    let provenance = Provenance {
+        method: name(&options.method),
+        bound: name(&options.bound),
+        max_error: options.max_error,
+        n_vertices_in: mesh.positions.len() as u64,
+        n_simplices_in: mesh.triangles.len() as u64,
+        options: json!(options),
+        repairs: json!(build.repairs),
+    };
+    let stored = StoreOptions { levels: arguments.levels };
+    store::write(&arguments.output, &build.mesh, &build.history, &provenance, &stored)
+        .map_err(|source| Failure::file(&arguments.output, source))
+}
+
+/// The name that a choice has in JSON.
+fn name(choice: &impl serde::Serialize) -> String {
+    json!(choice).as_str().unwrap_or_default().to_owned()
+}
+
+/// A build that is done.
+struct Outcome {
+    mesh: TriangleMesh,
+    read: ReadReport,
+    build: Build,
+    stored: StoreReport,
+    bounding_diagonal: f64,
+    seconds: f64,
+}
+
+impl Outcome {
+    fn json(&self) -> Value {
+        json!({
+            "triangles_in": self.mesh.triangles.len(),
+            "vertices_in": self.mesh.positions.len(),
+            "triangles_stored": self.stored.n_lifetimes,
+            "levels": self.stored.n_levels,
+            "coarsest_triangles": self.stored.n_coarsest,
+            "max_error": self.stored.max_error,
+            "bounding_diagonal": self.bounding_diagonal,
+            "seconds": self.seconds,
+            "file_bytes": self.stored.file_bytes,
+            "reading": self.read,
+            "repairs": self.build.repairs,
+        })
+    }
+
+    fn text(&self, arguments: &Arguments) -> String {
+        let Self { mesh, stored, .. } = self;
+        let size = |triangles: usize, vertices: usize| {
+            format!("{} triangles, {} vertices", figures::count(triangles), figures::count(vertices))
+        };
+        let list = figures::list(&[
+            ("mesh", size(mesh.triangles.len(), mesh.positions.len())),
+            ("read", figures::tally(&json!(self.read))),
+            ("repaired", figures::tally(&json!(self.build.repairs))),
+            (
+                "levels",
+                format!("{}, down to {} triangles", stored.n_levels, figures::count(stored.n_coarsest)),
+            ),
+            ("error", format!("up to {}", figures::error(stored.max_error, self.bounding_diagonal))),
+            (
+                "stored",
+                format!(
+                    "{} triangles in {}",
+                    figures::count(stored.n_lifetimes),
+                    figures::bytes(stored.file_bytes)
+                ),
+            ),
+            ("time", figures::time(Duration::from_secs_f64(self.seconds))),
+        ]);
+        format!("{}\n{list}", arguments.output.display())
+    }
+}

@@ -1,0 +1,171 @@
+//! `nephrite generate`: a surface made from a formula, written as a mesh.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::builder::RangedI64ValueParser;
+use clap::{Subcommand, value_parser};
+use nephrite::TriangleMesh;
+use nephrite::generate;
+use serde_json::json;
+
+use crate::failure::Failure;
+use crate::report::Report;
+use crate::{figures, files, interrupt};
+
+/// Make a surface from a formula.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    kind: Kind,
+}
+
+/// Where the surface goes.
+#[derive(Debug, clap::Args)]
+struct Output {
+    /// Mesh to write; its extension chooses the format
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+fn counts(least: u32, most: u32) -> RangedI64ValueParser<u32> {
+    value_parser!(u32).range(i64::from(least)..=i64::from(most))
+}
+
+#[derive(Debug, Subcommand)]
+enum Kind {
+    /// The ripple z = cos(r) / (r + 0.001) of the JADE paper, x and y in [-10, 10]
+    Cosine {
+        /// Vertices along each side
+        #[arg(long, default_value_t = 120, value_parser = counts(2, 20_000))]
+        side: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// The unit sphere, an icosahedron subdivided
+    Sphere {
+        /// Triangles to come near to
+        #[arg(long, default_value_t = 50_000, value_parser = counts(20, 20_000_000))]
+        triangles: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// A torus of radii 1 and 0.4
+    Torus {
+        /// Sections around the axis
+        #[arg(long, default_value_t = 250, value_parser = counts(3, 20_000))]
+        segments: u32,
+        /// Vertices of each section
+        #[arg(long, default_value_t = 100, value_parser = counts(3, 20_000))]
+        sides: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// Rolling hills over [0, 1000] x [0, 1000]
+    Terrain {
+        /// Vertices along each side
+        #[arg(long, default_value_t = 257, value_parser = counts(2, 20_000))]
+        side: u32,
+        /// Which hills
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// A plate with round holes through it, as a CAD system exports one
+    Plate {
+        /// Holes along x
+        #[arg(long, default_value_t = 4, value_parser = counts(1, 400))]
+        columns: u32,
+        /// Holes along y
+        #[arg(long, default_value_t = 3, value_parser = counts(1, 400))]
+        rows: u32,
+        /// Sides of each hole, rounded up to a multiple of four
+        #[arg(long, default_value_t = 64, value_parser = counts(4, 1024))]
+        segments: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// The cube [0, 1]^3
+    Cube {
+        /// Cells along each edge
+        #[arg(long, default_value_t = 50, value_parser = counts(1, 2000))]
+        segments: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// A closed cylinder of radius 1 and height 2
+    Cylinder {
+        /// Sides
+        #[arg(long, default_value_t = 256, value_parser = counts(3, 1_000_000))]
+        segments: u32,
+        /// Rings between the ends
+        #[arg(long, default_value_t = 50, value_parser = counts(1, 400))]
+        rings: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// A Moebius strip of width 0.8 around the unit circle
+    Moebius {
+        /// Cells along the strip
+        #[arg(long, default_value_t = 400, value_parser = counts(5, 20_000))]
+        segments: u32,
+        /// Cells across it
+        #[arg(long, default_value_t = 40, value_parser = counts(1, 19_999))]
+        rows: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+}
+
+impl Kind {
+    fn to(&self) -> &Output {
+        match self {
+            Self::Cosine { to, .. }
+            | Self::Sphere { to, .. }
+            | Self::Torus { to, .. }
+            | Self::Terrain { to, .. }
+            | Self::Plate { to, .. }
+            | Self::Cube { to, .. }
+            | Self::Cylinder { to, .. }
+            | Self::Moebius { to, .. } => to,
+        }
+    }
+
+    fn mesh(&self) -> TriangleMesh {
+        match *self {
+            Self::Cosine { side, .. } => generate::cosine(side),
+            Self::Sphere { triangles, .. } => generate::sphere(generate::sphere_frequency(triangles)),
+            Self::Torus { segments, sides, .. } => generate::torus(segments, sides),
+            Self::Terrain { side, seed, .. } => generate::terrain(side, seed),
+            Self::Plate { columns, rows, segments, .. } => generate::plate(columns, rows, segments),
+            Self::Cube { segments, .. } => generate::cuboid(segments),
+            Self::Cylinder { segments, rings, .. } => generate::cylinder(segments, rings),
+            Self::Moebius { segments, rows, .. } => generate::moebius(segments, rows),
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
+    let Output { output } = arguments.kind.to();
+    let start = Instant::now();
+    interrupt::listen();
+    files::check_mesh_output(output, &[])?;
+    let mesh = arguments.kind.mesh();
+    interrupt::check()?;
+    nephrite_formats::write_mesh(output, &mesh)?;
+    let [n_triangles, n_vertices] = [mesh.triangles.len(), mesh.positions.len()];
+    Ok(Report {
+        text: format!(
+            "{}: {} triangles, {} vertices\n",
+            output.display(),
+            figures::count(n_triangles),
+            figures::count(n_vertices)
+        ),
+        json: json!({
+            "triangles": n_triangles,
+            "vertices": n_vertices,
+            "seconds": start.elapsed().as_secs_f64(),
+        }),
+    })
+}

@@ -1,0 +1,106 @@
+//! `nephrite info`: what is inside a file, and how its triangles fall as the error rises.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use nephrite::Lod;
+use nephrite::store::{Metadata, Provenance};
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::report::Report;
+use crate::{figures, files};
+
+/// Say what is inside a file.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// File that `build` wrote
+    file: PathBuf,
+}
+
+/// Rows of the curve that the text shows; JSON lists every level.
+const SHOWN_LEVELS: usize = 24;
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
+    let lod = files::open_lod(&arguments.file)?;
+    let metadata = lod.metadata().map_err(|source| Failure::file(&arguments.file, source))?;
+    Ok(Report { text: text(arguments, &lod, &metadata), json: json(&lod, &metadata) })
+}
+
+fn json(lod: &Lod, metadata: &Metadata) -> Value {
+    let curve: Vec<_> = lod.curve().collect();
+    let coarsest = curve.last();
+    let attributes: Vec<_> = lod
+        .attributes()
+        .map(|view| json!({ "name": view.name, "scalar": view.scalar, "components": view.n_components }))
+        .collect();
+    json!({
+        "triangles_in": metadata.provenance.n_simplices_in,
+        "vertices_in": metadata.provenance.n_vertices_in,
+        "triangles_stored": lod.n_lifetimes(),
+        "levels": lod.n_levels(),
+        "coarsest_triangles": coarsest.map(|point| point.triangles),
+        "max_error": coarsest.map(|point| point.error),
+        "bounding_diagonal": lod.bounding_diagonal(),
+        "file_bytes": lod.file_bytes(),
+        "origin": lod.origin(),
+        "rounding": lod.rounding(),
+        "attributes": attributes,
+        "generator": metadata.generator,
+        "method": metadata.provenance.method,
+        "bound": metadata.provenance.bound,
+        "options": metadata.provenance.options,
+        "repairs": metadata.provenance.repairs,
+        "curve": curve,
+    })
+}
+
+fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
+    let Provenance { method, bound, n_vertices_in, n_simplices_in, repairs, .. } = &metadata.provenance;
+    let attributes: Vec<_> = lod.attributes().map(|view| view.name.to_owned()).collect();
+    let list = figures::list(&[
+        (
+            "mesh",
+            format!(
+                "{} triangles, {} vertices",
+                figures::count(*n_simplices_in),
+                figures::count(*n_vertices_in)
+            ),
+        ),
+        ("attributes", if attributes.is_empty() { "none".to_owned() } else { attributes.join(", ") }),
+        ("repaired", figures::tally(repairs)),
+        ("diagonal", figures::significant(lod.bounding_diagonal())),
+        ("built by", format!("{}, {method}, bound {bound}", metadata.generator)),
+        (
+            "stored",
+            format!(
+                "{} triangles in {} levels, {}",
+                figures::count(lod.n_lifetimes()),
+                figures::count(lod.n_levels()),
+                figures::bytes(lod.file_bytes())
+            ),
+        ),
+    ]);
+    format!("{}\n{list}\n{}", arguments.file.display(), curve(lod))
+}
+
+/// The error-triangle curve, thinned out evenly where it is long.
+fn curve(lod: &Lod) -> String {
+    let points: Vec<_> = lod.curve().enumerate().collect();
+    let last = points.len() - 1;
+    let n_shown = points.len().min(SHOWN_LEVELS);
+    let rows: Vec<_> = (0..n_shown)
+        .map(|row| if n_shown == 1 { 0 } else { row * last / (n_shown - 1) })
+        .map(|index| {
+            let (level, point) = &points[index];
+            [
+                level.to_string(),
+                figures::significant(point.error),
+                figures::percent(point.error, lod.bounding_diagonal()),
+                figures::count(point.triangles),
+                figures::count(point.vertices),
+            ]
+        })
+        .collect();
+    figures::table(["level", "error", "% of diagonal", "triangles", "vertices"], &rows)
+}

@@ -1,0 +1,101 @@
+//! Why a command stopped, as one line and an exit status.
+
+use std::error::Error;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use nephrite_formats::MeshError;
+
+/// Exit status of every failure but an interrupt; wrong usage has 2, which clap gives.
+const FAILED: u8 = 1;
+/// Exit status of an interrupt, as shells count it: 128 and the number of SIGINT.
+pub(crate) const INTERRUPTED: u8 = 130;
+
+/// Whatever stops a command.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub(crate) enum Failure {
+    /// A mesh could not be read or written; names its file and the place in it.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Something is wrong with a file that is no mesh, or with what was made of it.
+    #[error("{}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<dyn Error + Send + Sync>,
+    },
+    /// A level was asked for that the file does not have.
+    #[error("{}: has levels 0 to {}, not {level}", path.display(), n_levels - 1)]
+    Level {
+        /// The file.
+        path: PathBuf,
+        /// The level asked for.
+        level: u32,
+        /// Levels there are.
+        n_levels: u32,
+    },
+    /// The output is the input, which it would replace.
+    #[error("{}: is the input, which the output would replace", path.display())]
+    OutputIsInput {
+        /// The file named twice.
+        path: PathBuf,
+    },
+    /// Somebody pressed Ctrl-C.
+    #[error("interrupted, nothing was written")]
+    Interrupted,
+}
+
+impl Failure {
+    /// A failure that concerns one file.
+    pub(crate) fn file(path: impl AsRef<Path>, source: impl Error + Send + Sync + 'static) -> Self {
+        Self::File { path: path.as_ref().to_owned(), source: Box::new(source) }
+    }
+
+    /// A failure of the system at something that is no file.
+    pub(crate) fn system(what: &str, source: io::Error) -> Self {
+        Self::file(what, source)
+    }
+
+    /// The message on one line, from the outermost cause to the innermost.
+    pub(crate) fn line(&self) -> String {
+        let mut clauses = vec![self.to_string()];
+        let mut cause = self.source();
+        while let Some(error) = cause {
+            let clause = error.to_string();
+            // Some errors show their source themselves, some name the file again.
+            match clauses.last_mut() {
+                Some(last) if last.ends_with(&clause) => {}
+                Some(last) if clause.contains(last.as_str()) => *last = clause,
+                _ => clauses.push(clause),
+            }
+            cause = error.source();
+        }
+        format!("nephrite: {}", clauses.join(": ")).replace(['\n', '\r'], " ")
+    }
+
+    /// The process's exit status.
+    pub(crate) fn status(&self) -> u8 {
+        if matches!(self, Self::Interrupted) { INTERRUPTED } else { FAILED }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_names_the_file_and_every_cause_once() {
+        let cause = io::Error::other("two\nlines");
+        assert_eq!(Failure::file("a.neph", cause).line(), "nephrite: a.neph: two lines");
+        let mesh = MeshError::NoFaces { n_vertices: 3 }.in_file("b.ply");
+        assert_eq!(Failure::from(mesh).line(), "nephrite: b.ply: no faces (3 vertices)");
+    }
+
+    #[test]
+    fn an_interrupt_has_the_status_of_a_signal() {
+        assert_eq!(Failure::Interrupted.status(), 130);
+        assert_eq!(Failure::OutputIsInput { path: "a".into() }.status(), 1);
+    }
+}

@@ -1,0 +1,47 @@
+//! What a command has to say, once: as text for a person or as one JSON object for a script.
+
+use std::io::{self, Write};
+
+use serde_json::Value;
+
+/// The result of a command in both its forms.
+pub(crate) struct Report {
+    /// For a person; ends in a newline.
+    pub(crate) text: String,
+    /// For a script: one object.
+    pub(crate) json: Value,
+}
+
+/// Form in which a result is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// [`Report::text`].
+    Text,
+    /// [`Report::json`] on one line.
+    Json,
+}
+
+impl Report {
+    /// Writes the result to stdout; a reader that has gone away is no failure.
+    ///
+    /// # Errors
+    ///
+    /// Whatever else stdout reports, a full disk for one.
+    pub(crate) fn print(&self, form: Form) -> io::Result<()> {
+        let mut stdout = io::stdout().lock();
+        let printed = match form {
+            Form::Text => stdout.write_all(self.text.as_bytes()),
+            Form::Json => writeln!(stdout, "{}", self.json),
+        };
+        match printed.and_then(|()| stdout.flush()) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+            other => other,
+        }
+    }
+}
+
+/// Writes a line to stderr, beside the results.
+pub(crate) fn note(line: &str) {
+    // A note that nobody can read is not worth failing for.
+    let _ = writeln!(io::stderr(), "{line}");
+}

@@ -1,0 +1,72 @@
+//! Times short enough to drown in noise: repeated, taken in turn, and reduced to medians.
+
+use std::time::{Duration, Instant};
+
+/// Samples taken of each piece of work; odd, so that the median is one of them.
+const N_SAMPLES: usize = 31;
+/// Shortest sample: briefer work is repeated within one, so that reading the clock does not count.
+const SHORTEST_SAMPLE: Duration = Duration::from_micros(50);
+
+/// Median seconds that each of two pieces of work takes, their samples in turn so that both meet the same machine.
+pub(crate) fn in_turn(mut first: impl FnMut(), mut second: impl FnMut()) -> [f64; 2] {
+    let [n_first, n_second] = [n_repeats(&mut first), n_repeats(&mut second)];
+    let [mut of_first, mut of_second] = [[0.0; N_SAMPLES]; 2];
+    for (first_seconds, second_seconds) in of_first.iter_mut().zip(&mut of_second) {
+        *first_seconds = seconds_per_call(&mut first, n_first);
+        *second_seconds = seconds_per_call(&mut second, n_second);
+    }
+    [of_first, of_second].map(median)
+}
+
+/// Median seconds that a piece of work takes.
+pub(crate) fn alone(mut work: impl FnMut()) -> f64 {
+    let n_calls = n_repeats(&mut work);
+    median(std::array::from_fn(|_| seconds_per_call(&mut work, n_calls)))
+}
+
+/// Calls that fill the shortest sample.
+fn n_repeats(work: &mut impl FnMut()) -> u32 {
+    let mut n_calls = 1;
+    loop {
+        let start = Instant::now();
+        for _ in 0..n_calls {
+            work();
+        }
+        if start.elapsed() >= SHORTEST_SAMPLE || n_calls >= 1 << 20 {
+            return n_calls;
+        }
+        n_calls *= 2;
+    }
+}
+
+fn seconds_per_call(work: &mut impl FnMut(), n_calls: u32) -> f64 {
+    let start = Instant::now();
+    for _ in 0..n_calls {
+        work();
+    }
+    start.elapsed().as_secs_f64() / f64::from(n_calls)
+}
+
+fn median(mut seconds: [f64; N_SAMPLES]) -> f64 {
+    seconds.sort_unstable_by(f64::total_cmp);
+    seconds[N_SAMPLES / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn longer_work_takes_longer() {
+        let sum = |n: u64| std::hint::black_box((0..n).fold(0, |sum, i| sum ^ std::hint::black_box(i)));
+        let [short, long] = in_turn(|| _ = sum(10), || _ = sum(100_000));
+        assert!(short > 0.0 && short < long, "{short} {long}");
+    }
+
+    #[test]
+    fn a_median_ignores_outliers() {
+        let mut seconds = [1.0; N_SAMPLES];
+        seconds[3] = 1000.0;
+        assert_eq!(median(seconds), 1.0);
+    }
+}
