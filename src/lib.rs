@@ -17,3 +17,8 @@ pub use build::{
 pub use history::History;
 pub use nephrite_formats::{Attribute, ScalarType, TriangleMesh};
 pub use query::{Cut, Lod};
+
+/// Compiles and runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
