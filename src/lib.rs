@@ -6,6 +6,7 @@ pub mod decimate;
 pub mod generate;
 pub mod geometry;
 pub mod history;
+pub mod measure;
 pub mod mesh;
 pub mod query;
 pub mod store;

@@ -191,6 +191,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::geometry::prepared::PreparedTriangle;
     use crate::geometry::vector::{add, distance_sq, midpoint, scale};
 
     const UNIT: Triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -232,6 +233,8 @@ mod tests {
     fn check_triangle(p: Vector, triangle: Triangle, expected: f64) {
         let found = point_triangle_distance_sq(p, &triangle).sqrt();
         assert!((found - expected).abs() < 1e-12, "found {found}, expected {expected}");
+        let prepared = PreparedTriangle::new(&triangle).distance_sq(p).sqrt();
+        assert!((prepared - expected).abs() < 1e-12, "prepared {prepared}, expected {expected}");
         let point = closest_on_triangle(p, &triangle);
         assert!((distance_sq(p, point).sqrt() - expected).abs() < 1e-12, "closest point {point:?}");
     }
@@ -325,6 +328,18 @@ mod tests {
             let found = point_triangle_distance_sq(p, &triangle).sqrt();
             let expected = naive_triangle_distance(p, triangle);
             prop_assert!((found - expected).abs() < 2e-8, "found {}, expected {}", found, expected);
+        }
+
+        #[test]
+        fn preparing_changes_nothing(p in vector(), triangle in triangle()) {
+            let plain = point_triangle_distance_sq(p, &triangle).sqrt();
+            let prepared = PreparedTriangle::new(&triangle);
+            let mut many = [f64::NAN; 3];
+            prepared.distances_sq([&[p[0]; 3], &[p[1]; 3], &[p[2]; 3]], &mut many);
+            prop_assert!(many.iter().all(|found| (found.sqrt() - plain).abs() < 1e-12), "many {:?}", many);
+            let prepared = prepared.distance_sq(p).sqrt();
+            // A foot beside a needle may be off by rounding over its sine, 1e-3 at least where the edges are not asked.
+            prop_assert!((plain - prepared).abs() < 1e-12, "plain {}, prepared {}", plain, prepared);
         }
 
         #[test]

@@ -1,5 +1,6 @@
 //! Vectors and exact distances between points, segments and triangles, in `f64`.
 
 pub mod distance;
+pub mod prepared;
 pub mod projection;
 pub mod vector;

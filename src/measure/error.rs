@@ -1,0 +1,80 @@
+//! Why two meshes could not be compared.
+
+/// One of the two meshes that are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The mesh that is trusted.
+    Reference,
+    /// The mesh that is judged.
+    Mesh,
+}
+
+impl std::fmt::Display for Side {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Self::Reference => "reference",
+            Self::Mesh => "mesh",
+        })
+    }
+}
+
+/// Why [`measure`](super::measure) has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeasureError {
+    /// There is no surface to measure from or to.
+    #[error("the {side} has no triangles, {n_vertices} vertices alone are no surface")]
+    NoTriangles {
+        /// Which of the two meshes.
+        side: Side,
+        /// Vertices that it has all the same.
+        n_vertices: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} of the {side} uses vertex {vertex}, the mesh has {n_vertices}")]
+    VertexOutOfRange {
+        /// Which of the two meshes.
+        side: Side,
+        /// The triangle.
+        triangle: usize,
+        /// The index found.
+        vertex: u32,
+        /// What it must be below.
+        n_vertices: usize,
+    },
+    /// A coordinate that a triangle uses is infinite or not a number.
+    #[error("vertex {vertex} of the {side} is at {position:?}, which is not finite")]
+    NotFinite {
+        /// Which of the two meshes.
+        side: Side,
+        /// The vertex.
+        vertex: u32,
+        /// Where it is.
+        position: [f64; 3],
+    },
+    /// The origin of a mesh is infinite or not a number.
+    #[error("the origin of the {side} is {origin:?}, which is not finite")]
+    OriginNotFinite {
+        /// Which of the two meshes.
+        side: Side,
+        /// The origin found.
+        origin: [f64; 3],
+    },
+    /// The meshes are too far apart for squares of their distance to be finite.
+    #[error("coordinates reach {found:e}, at most {limit:e} can be measured")]
+    TooFarApart {
+        /// Largest coordinate about the reference's centre.
+        found: f64,
+        /// Largest coordinate that is accepted.
+        limit: f64,
+    },
+    /// A mean of no samples does not exist.
+    #[error("0 samples were asked for, at least 1 is needed")]
+    NoSamples,
+    /// The tolerance is not a number above zero.
+    #[error("the tolerance is {found}, it must be a finite number above 0")]
+    BadTolerance {
+        /// The tolerance found.
+        found: f64,
+    },
+}
