@@ -192,7 +192,7 @@ fn decimate(
     };
     let surface = Surface::new(mesh.positions.clone(), triangles);
     let error = match options.bound {
-        Bound::Certified => GlobalError::Certified(Certified::new(&surface)),
+        Bound::Certified => GlobalError::Certified(Certified::new(&surface, mesh.rounding)),
         Bound::Joint => GlobalError::Estimate(Estimate::new(Kind::Joint, &surface)),
         Bound::Removed => GlobalError::Estimate(Estimate::new(Kind::Removed, &surface)),
         Bound::Accumulated => GlobalError::Estimate(Estimate::new(Kind::Accumulated, &surface)),

@@ -26,6 +26,15 @@ pub struct Estimate {
     removed: Option<RemovedVertices>,
 }
 
+/// What a replacement changes.
+#[derive(Clone, Debug)]
+pub struct Change {
+    /// e_g1 of the filling's triangles.
+    accumulated: Vec<f64>,
+    /// Removed vertices and the index of the filling's triangle that each goes to.
+    assignments: Vec<(u32, usize)>,
+}
+
 impl Estimate {
     /// The estimate at the start, when `surface` is the input.
     pub fn new(kind: Kind, surface: &Surface) -> Self {
@@ -77,20 +86,27 @@ impl Estimate {
         if hole.closed { error } else { error.max(boundary_error(hole)) }
     }
 
-    /// Carries the estimates over to the filling.
-    pub fn commit(&mut self, replacement: Replacement<'_>) {
+    /// What the replacement changes in the estimates.
+    pub fn change(&self, replacement: Replacement<'_>) -> Change {
         let Replacement { surface, hole, filling } = replacement;
-        let n = filling.triangles.len();
-        let errors: Vec<f64> = (0..n).map(|i| self.accumulated_error(hole, filling, i)).collect();
+        let accumulated =
+            (0..filling.triangles.len()).map(|i| self.accumulated_error(hole, filling, i)).collect();
+        let vertices = self.removed.iter().flat_map(|removed| removed.of_hole(hole));
+        let assignments = vertices.map(|v| (v, nearest(hole, filling, surface.point(v)).0)).collect();
+        Change { accumulated, assignments }
+    }
+
+    /// Carries the estimates over to the filling.
+    pub fn apply(&mut self, hole: &Hole, change: &Change) {
         if let Some(accumulated) = &mut self.accumulated {
-            hole.slots.iter().zip(errors).for_each(|(&slot, error)| accumulated.set(slot, error));
+            hole.slots
+                .iter()
+                .zip(&change.accumulated)
+                .for_each(|(&slot, &error)| accumulated.set(slot, error));
         }
         if let Some(removed) = &mut self.removed {
-            let vertices: Vec<u32> = removed.of_hole(hole).collect();
             removed.clear(hole);
-            for v in vertices {
-                removed.add(v, hole.slots[nearest(hole, filling, surface.point(v)).0]);
-            }
+            change.assignments.iter().for_each(|&(v, i)| removed.add(v, hole.slots[i]));
         }
     }
 }

@@ -24,6 +24,7 @@ pub struct Replacement<'a> {
 
 /// The error of the current mesh, in one meaning or the other.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one per decimation")]
 pub enum GlobalError {
     /// Proven.
     Certified(Certified),
@@ -31,12 +32,46 @@ pub enum GlobalError {
     Estimate(Estimate),
 }
 
+/// What a replacement changes in the errors.
+#[derive(Clone, Debug)]
+pub enum Change {
+    /// In the map of the proof.
+    Certified(certified::Change),
+    /// In the estimates.
+    Estimate(estimate::Change),
+}
+
 impl GlobalError {
-    /// Takes over what the replacement makes of the errors.
-    pub fn commit(&mut self, replacement: Replacement<'_>, covered: &mut Covered, transfer: &mut Transfer) {
+    /// What the replacement changes, found without changing it. After [`Certified::bound`] of the same replacement, with
+    /// the same buffers.
+    pub fn change(&self, replacement: Replacement<'_>, covered: &Covered, transfer: &mut Transfer) -> Change {
         match self {
-            Self::Certified(certified) => certified.commit(replacement, covered, transfer),
-            Self::Estimate(estimate) => estimate.commit(replacement),
+            Self::Certified(certified) => Change::Certified(certified.change(replacement, covered, transfer)),
+            Self::Estimate(estimate) => Change::Estimate(estimate.change(replacement)),
+        }
+    }
+
+    /// Changes found from now on are current until one that they depend on is applied.
+    pub fn start_batch(&mut self) {
+        if let Self::Certified(certified) = self {
+            certified.start_batch();
+        }
+    }
+
+    /// Whether a change found in this batch may still be applied.
+    pub fn is_current(&self, change: &Change) -> bool {
+        match (self, change) {
+            (Self::Certified(certified), Change::Certified(change)) => certified.is_current(change),
+            _ => true,
+        }
+    }
+
+    /// Applies what was found for the replacement of the star of `hole`.
+    pub fn apply(&mut self, hole: &Hole, change: Change) {
+        match (self, change) {
+            (Self::Certified(certified), Change::Certified(change)) => certified.apply(hole, &change),
+            (Self::Estimate(estimate), Change::Estimate(change)) => estimate.apply(hole, &change),
+            _ => debug_assert!(false, "a change of one kind applied to errors of the other"),
         }
     }
 }

@@ -28,8 +28,8 @@ use crate::geometry::vector::widen;
 use crate::mesh::{Hole, Surface};
 use chains::Chains;
 use source::SourceEdges;
-pub use transfer::Transfer;
-use transfer::{Assignment, Change, Removal};
+use transfer::{Assignment, Removal};
+pub use transfer::{Change, Transfer};
 
 /// No slot, or no corner.
 const NONE: u32 = u32::MAX;
@@ -49,23 +49,28 @@ pub struct Certified {
     slot_of: Vec<u32>,
     /// For a removed vertex of the boundary: the corner of its triangle at which its boundary edge starts.
     rim_corner: Vec<u8>,
+    /// Last batch in which the chain of each source edge was set.
+    set_in_batch: Vec<u32>,
+    batch: u32,
     slack: f64,
 }
 
 impl Certified {
-    /// The identity on `surface`, which is the input.
-    pub fn new(surface: &Surface) -> Self {
+    /// The identity on `surface`, which is the input but for `rounding`: how far reading it moved the worst vertex.
+    pub fn new(surface: &Surface, rounding: f64) -> Self {
         let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
         let source = SourceEdges::new(n_vertices, surface.iter().map(|(_, corners)| corners));
         let largest =
             surface.positions().iter().flat_map(|&p| widen(p)).fold(0.0, |m: f64, x| m.max(x.abs()));
         Self {
             chains: Chains::new(source.n_edges(), n_slots),
-            source,
             removed: RemovedVertices::new(n_slots, n_vertices),
             slot_of: vec![NONE; n_vertices],
             rim_corner: vec![NOT_ON_RIM; n_vertices],
-            slack: SLACK * largest,
+            set_in_batch: vec![0; source.n_edges()],
+            batch: 0,
+            source,
+            slack: SLACK * largest + rounding,
         }
     }
 
@@ -81,20 +86,32 @@ impl Certified {
         transfer.displacement(Removal { certified: self, replacement, covered }, limit) + self.slack
     }
 
-    /// Carries the map over to the filling.
-    pub fn commit(&mut self, replacement: Replacement<'_>, covered: &mut Covered, transfer: &mut Transfer) {
-        let Replacement { surface, hole, .. } = replacement;
-        covered.gather(surface, hole, self.vertices_in(hole));
-        let change = transfer.change(Removal { certified: self, replacement, covered });
-        self.apply(hole, change);
+    /// What the replacement changes in the map. After [`Self::bound`] of the same replacement, with the same `transfer`.
+    pub fn change(&self, replacement: Replacement<'_>, covered: &Covered, transfer: &mut Transfer) -> Change {
+        transfer.change(Removal { certified: self, replacement, covered })
     }
 
-    fn apply(&mut self, hole: &Hole, change: Change) {
-        for (edge, portions) in change.chains {
-            self.chains.set(edge, &portions);
+    /// Starts a batch of changes that are found first and applied afterwards.
+    pub fn start_batch(&mut self) {
+        self.batch += 1;
+    }
+
+    /// Whether no chain that `change` sets was set since the batch started. All else that a change depends on belongs to
+    /// its own star.
+    pub fn is_current(&self, change: &Change) -> bool {
+        change.chains.iter().all(|&(edge, _)| self.set_in_batch[edge as usize] != self.batch)
+    }
+
+    /// Carries the map over to the filling.
+    pub fn apply(&mut self, hole: &Hole, change: &Change) {
+        let mut start = 0;
+        for &(edge, end) in &change.chains {
+            self.chains.set(edge, &change.portions[start..end]);
+            self.set_in_batch[edge as usize] = self.batch;
+            start = end;
         }
         self.removed.clear(hole);
-        for Assignment { vertex, label, rim_corner } in change.assignments {
+        for &Assignment { vertex, label, rim_corner } in &change.assignments {
             let slot = hole.slots[usize::from(label)];
             self.removed.add(vertex, slot);
             self.slot_of[vertex as usize] = slot;

@@ -21,11 +21,13 @@ pub struct Transfer {
 
 /// What a removal changes in the map.
 #[derive(Clone, Debug)]
-pub(super) struct Change {
+pub struct Change {
     /// The new triangle of every vertex mapped into the hole.
     pub(super) assignments: Vec<Assignment>,
-    /// The new chain of every source edge that needs or needed one.
-    pub(super) chains: Vec<(u32, Vec<Portion>)>,
+    /// Every source edge that needs or needed a chain, and where its new one ends among the portions.
+    pub(super) chains: Vec<(u32, usize)>,
+    /// The new chains, one after another.
+    pub(super) portions: Vec<Portion>,
 }
 
 /// A source vertex and where its image is from now on.
@@ -103,24 +105,23 @@ impl Transfer {
         largest_sq.sqrt()
     }
 
-    /// What the removal changes.
+    /// What the removal changes. Right after [`Self::displacement`] of the same removal, whose labels and edges it uses.
     pub(super) fn change(&mut self, removal: Removal<'_>) -> Change {
-        self.assign_vertices(removal, f64::INFINITY);
-        self.collect_edges(removal);
         let edges = std::mem::take(&mut self.edges);
-        let new_chain = |&edge: &u32| {
+        let (mut chains, mut portions) = (Vec::with_capacity(edges.len()), vec![]);
+        for &edge in &edges {
             self.reroute(removal, edge);
             removal.shorten(edge, &mut self.new);
-            (edge, self.new.clone())
-        };
-        let chains = edges.iter().map(new_chain).collect();
+            portions.extend_from_slice(&self.new);
+            chains.push((edge, portions.len()));
+        }
         self.edges = edges;
         let assign = |&vertex: &u32| Assignment {
             vertex,
             label: self.labels.get(vertex).unwrap_or_default(),
             rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
         };
-        Change { assignments: removal.covered.vertices.iter().map(assign).collect(), chains }
+        Change { assignments: removal.covered.vertices.iter().map(assign).collect(), chains, portions }
     }
 
     /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared displacement, or the

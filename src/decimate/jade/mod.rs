@@ -12,6 +12,7 @@ pub mod ears;
 pub mod fit;
 pub mod flip;
 pub mod optimal;
+pub mod removal;
 pub mod rounds;
 pub mod thresholds;
 pub mod triangulate;

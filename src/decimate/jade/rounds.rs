@@ -1,11 +1,12 @@
 //! The driver: iterations under rising limits, and in each of them rounds over an independent set.
 
 use super::candidate::{Scratch, Situation, Verdict, judge};
+use super::removal::{Plan, plan};
 use super::thresholds::Thresholds;
 use crate::bound::accumulated::round_up;
-use crate::bound::{GlobalError, Limits, Replacement};
+use crate::bound::{GlobalError, Limits};
 use crate::history::Recorder;
-use crate::mesh::{Filling, Hole, Seams, Surface};
+use crate::mesh::{Seams, Surface};
 use rayon::prelude::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -31,6 +32,9 @@ pub struct Decimation {
 
 /// Candidates that one thread judges at a time.
 const CHUNK: usize = 32;
+
+/// Removals that are planned before the first of them is carried out.
+const BATCH: usize = 4096;
 
 /// Buffers for judging, one set per thread of the pool and one for the caller.
 #[derive(Default)]
@@ -77,7 +81,7 @@ pub fn run(
     let mut round = 0;
     let mut limits = thresholds.limits();
     loop {
-        let mut worklist = candidates.below(limits);
+        let mut worklist = candidates.below(limits, &decimation.surface);
         while !worklist.is_empty() {
             if !go_on(decimation) {
                 return false;
@@ -85,7 +89,7 @@ pub fn run(
             judge_all(decimation, &mut candidates, limits, &worklist);
             round += 1;
             let picked = pick(decimation, &mut candidates, round, worklist);
-            worklist = remove_all(decimation, &mut candidates, limits, picked);
+            worklist = remove_all(decimation, &mut candidates, limits, &picked);
         }
         let Some(next) = thresholds.advance(candidates.least_needed()) else { return true };
         limits = next;
@@ -102,8 +106,9 @@ impl Candidates {
         }
     }
 
-    /// Vertices that the limits may admit, in ascending order. Forgets those that are impossible for good.
-    fn below(&mut self, limits: Limits) -> Vec<u32> {
+    /// Vertices that the limits may admit, in ascending order. Drops those that are gone.
+    fn below(&mut self, limits: Limits, surface: &Surface) -> Vec<u32> {
+        self.open.retain(|&v| !surface.star(v).is_empty());
         let needed = &self.needed;
         let limit = limits.local;
         self.open.iter().copied().filter(|&v| f64::from(needed[v as usize]) <= limit).collect()
@@ -126,7 +131,8 @@ impl Candidates {
 }
 
 impl Decimation {
-    fn situation(&self) -> Situation<'_> {
+    /// What candidates are judged by.
+    pub(super) fn situation(&self) -> Situation<'_> {
         Situation {
             surface: &self.surface,
             seams: self.seams.as_ref(),
@@ -179,70 +185,46 @@ fn pick(decimation: &Decimation, candidates: &mut Candidates, round: u32, workli
 }
 
 /// Removes the picked vertices, one step each, and returns the vertices to be judged anew, in ascending order.
+///
+/// Plans are made in parallel, a batch at a time so that they never take much memory, and carried out in turn.
 fn remove_all(
     decimation: &mut Decimation,
     candidates: &mut Candidates,
     limits: Limits,
-    picked: Vec<u32>,
+    picked: &[u32],
 ) -> Vec<u32> {
     let mut touched = vec![];
-    let workers = std::mem::take(&mut decimation.workers);
-    let mut scratch = workers.scratch();
-    for v in picked {
-        // The neighbours' holes may have made an edge that this filling needs for itself: judged again.
-        match judge(decimation.situation(), v, limits, &mut scratch) {
-            Verdict::Removable(errors) => {
-                remove(decimation, &mut scratch, errors.global);
-                candidates.close(v);
-                touched.extend_from_slice(&scratch.hole.ring);
+    for batch in picked.chunks(BATCH) {
+        decimation.error.start_batch();
+        for (&v, planned) in batch.iter().zip(plan_all(decimation, limits, batch)) {
+            let is_current = |plan: &Plan| plan.is_current(&decimation.surface, &decimation.error);
+            let plan = match planned {
+                Some(plan) if is_current(&plan) => Some(plan),
+                _ => plan(decimation.situation(), v, limits, &mut decimation.workers.scratch()),
+            };
+            match plan {
+                Some(plan) => {
+                    touched.extend_from_slice(&plan.hole.ring);
+                    plan.carry_out(decimation);
+                    candidates.close(v);
+                }
+                None => touched.push(v),
             }
-            Verdict::Above(_) | Verdict::Impossible => touched.push(v),
         }
     }
-    drop(scratch);
-    decimation.workers = workers;
     decimation.surface.compact();
-    candidates.open.retain(|&v| !decimation.surface.star(v).is_empty());
     touched.par_sort_unstable();
     touched.dedup();
     touched.iter().for_each(|&v| candidates.forget(v));
     touched
 }
 
-/// Removes one vertex: record, errors, mesh, in this order, since each needs the star as it was.
-fn remove(decimation: &mut Decimation, scratch: &mut Scratch, step_error: f64) {
-    let Decimation { surface, seams, error, recorder, .. } = decimation;
-    let Scratch { hole, filling, covered, transfer, .. } = scratch;
-    recorder.step(step_error);
-    let dying = |slot: u32| seams.as_ref().map_or_else(|| surface.corners(slot), |seams| seams.corners(slot));
-    hole.slots.iter().for_each(|&slot| recorder.death(slot, dying(slot)));
-    error.commit(Replacement { surface, hole, filling }, covered, transfer);
-    let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
-    let vertices = seams.as_ref().map(|seams| seam_vertices(surface, seams, hole, filling));
-    match &vertices {
-        None => recorder.vertex_death(hole.removed),
-        Some(_) => seams.iter().for_each(|seams| {
-            hole.slots
-                .iter()
-                .for_each(|&slot| recorder.vertex_death(seams.vertex(surface, slot, hole.removed)));
-        }),
-    }
-    surface.replace_star(hole.removed, &hole.slots, &born);
-    for (i, &slot) in (0..born.len()).zip(&hole.slots) {
-        recorder.birth(slot);
-        if let (Some(seams), Some(vertices)) = (seams.as_mut(), &vertices) {
-            seams.set(slot, vertices[i]);
-        }
-    }
-}
-
-/// The vertices of the filling's triangles: at each ring point the one that the star has on the same side of the seam.
-fn seam_vertices(surface: &Surface, seams: &Seams, hole: &Hole, filling: &Filling) -> Vec<[u32; 3]> {
-    let corner = |t: usize, i: u8| {
-        // A part of the filling runs round from its start to its end, so only its start lies before its triangles.
-        let (i, is_start) = (usize::from(i), i == filling.part_start(t));
-        let slot = if is_start { hole.slot_after(i) } else { hole.slot_before(i) };
-        seams.vertex(surface, slot, hole.ring[i])
+/// Plans the removal of every vertex of the batch, in parallel.
+fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Option<Plan>> {
+    let situation = decimation.situation();
+    let plan_chunk = |chunk: &[u32]| {
+        let mut scratch = decimation.workers.scratch();
+        chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
     };
-    (0..filling.triangles.len()).map(|t| filling.triangles[t].map(|i| corner(t, i))).collect()
+    batch.par_chunks(CHUNK).flat_map_iter(plan_chunk).collect()
 }
