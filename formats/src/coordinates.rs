@@ -40,6 +40,28 @@ pub(crate) fn from_f64(points: &[[f64; 3]]) -> Result<Coordinates, MeshError> {
     Ok(if gains { about_centre } else { about_zero })
 }
 
+/// As [`from_f64`], for numbers read from text: the origin stays zero where the digits are no more than `f32` holds.
+///
+/// `0.1` is not exact in `f32`, but it is the shortest text that means the nearest `f32`, as it is for all numbers of up to
+/// six digits and for everything that was printed from `f32`. Nothing that such digits tell apart is lost about zero.
+///
+/// # Errors
+///
+/// As [`from_f64`].
+pub(crate) fn from_text(points: &[[f64; 3]]) -> Result<Coordinates, MeshError> {
+    let coordinates = from_f64(points)?;
+    let is_shifted = coordinates.origin != [0.0; 3];
+    if is_shifted && points.iter().flatten().all(|&value| is_shortest_text_of_f32(value)) {
+        return Ok(round_about(points, [0.0; 3]));
+    }
+    Ok(coordinates)
+}
+
+/// Whether the number is what the shortest text of the nearest `f32` means.
+fn is_shortest_text_of_f32(value: f64) -> bool {
+    format!("{:e}", nearest_f32(value)).parse() == Ok(value)
+}
+
 /// Positions that the file gives in `f32`: nothing to choose, nothing lost.
 ///
 /// # Errors
@@ -133,8 +155,8 @@ fn round_about(points: &[[f64; 3]], origin: [f64; 3]) -> Coordinates {
     }
 }
 
-/// Centre of the bounding box, rounded to `f32`: differences from it are exact in `f64` more often than from an arbitrary
-/// `f64`, and programs that keep node translations in single precision still place the mesh right.
+/// Centre of the bounding box, to within a sixteenth of its sides: a number of few digits, the difference from which is
+/// exact in `f64` more often.
 fn bounding_centre(points: &[[f64; 3]]) -> [f64; 3] {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
@@ -144,7 +166,17 @@ fn bounding_centre(points: &[[f64; 3]]) -> [f64; 3] {
             high[axis] = high[axis].max(point[axis]);
         }
     }
-    std::array::from_fn(|axis| nearest_f32(0.5 * (low[axis] + high[axis])).into())
+    std::array::from_fn(|axis| {
+        let centre = 0.5 * (low[axis] + high[axis]);
+        let step = power_of_two_below(high[axis] - low[axis]) / 16.0;
+        if step > 0.0 { (centre / step).round() * step } else { centre }
+    })
+}
+
+/// The largest power of two that is not above a positive number, zero for zero and subnormal numbers.
+fn power_of_two_below(value: f64) -> f64 {
+    const EXPONENT_BITS: u64 = 0x7ff0_0000_0000_0000;
+    f64::from_bits(value.to_bits() & EXPONENT_BITS)
 }
 
 /// `a + b` as a rounded sum and the exact rest (Knuth, The Art of Computer Programming 2, section 4.2.2, theorem B).
@@ -202,6 +234,16 @@ mod tests {
         assert_eq!(near.origin, [0.0; 3]);
         let far = from_f64(&[[400.1, 0.0, 0.0], [401.3, 0.0, 0.0]]).unwrap();
         assert_ne!(far.origin, [0.0; 3]);
+    }
+
+    #[test]
+    fn digits_that_f32_holds_are_not_shifted() {
+        let point = [[61.706036, 0.1, -3.4e-12]];
+        assert_ne!(from_f64(&point).unwrap().origin, [0.0; 3]);
+        let read = from_text(&point).unwrap();
+        assert_eq!((read.origin, read.positions[0]), ([0.0; 3], [61.706036_f32, 0.1, -3.4e-12]));
+        assert!(read.rounding > 0.0);
+        assert_ne!(from_text(&[[431_234.567, 0.1, 0.0]]).unwrap().origin, [0.0; 3]);
     }
 
     #[test]

@@ -9,6 +9,14 @@ use crate::MeshFormat;
 /// Why a mesh could not be read or written.
 ///
 /// Messages are one clause and name the place inside the file; [`MeshError::InFile`] puts the file's name before it.
+///
+/// ```
+/// use nephrite_formats::{MeshError, MeshFormat, read_mesh_bytes};
+///
+/// let error = read_mesh_bytes(b"v 0 0 0\nf 1 2 3\n", MeshFormat::Obj).unwrap_err();
+/// assert!(matches!(error, MeshError::IndexOutOfRange { index: 3, .. }));
+/// assert_eq!(error.to_string(), "line 2: vertex index 3 is out of range (1 there)");
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {

@@ -13,6 +13,14 @@ use crate::text::{Scanner, Style};
 use crate::{MeshError, ReadReport, TriangleMesh, Warning, gltf, obj, off, ply, stl};
 
 /// A mesh file format.
+///
+/// ```
+/// use nephrite_formats::MeshFormat;
+///
+/// assert_eq!(MeshFormat::from_path("scan.PLY".as_ref()), Some(MeshFormat::Ply));
+/// // Contents are believed before the extension.
+/// assert_eq!(MeshFormat::detect(b"OFF\n3 1 0\n", Some(MeshFormat::Obj)), Some(MeshFormat::Off));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -88,6 +96,19 @@ impl fmt::Display for MeshFormat {
 /// Reads a mesh file of any known format.
 ///
 /// Costs one read of the file and a few passes over its bytes; memory stays within a constant times its size.
+///
+/// ```
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("square.obj");
+/// std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")?;
+/// let (mesh, report) = nephrite_formats::read_mesh(&path)?;
+/// assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+/// assert_eq!(report.n_polygons_triangulated, 1);
+/// nephrite_formats::write_mesh(path.with_extension("glb"), &mesh)?;
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
 ///

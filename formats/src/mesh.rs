@@ -3,16 +3,30 @@
 //! Coordinates are stored as `f32` about a local origin kept in `f64`, chosen by one rule for every format:
 //!
 //! 1. A file whose coordinates are all exact in `f32` gets the origin zero and loses nothing.
-//! 2. Otherwise both the origin zero and the centre of the bounding box are tried. The centre is taken only where it
-//!    makes the worst rounding more than four times smaller, as it does far from the origin. A mesh about the origin,
-//!    or text such as `0.1` that no binary number equals, keeps the origin zero: a shift would gain it nothing.
-//! 3. [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can include it.
+//! 2. Text whose numbers have no more digits than `f32` holds (each is the shortest text of the nearest `f32`, as `0.1` is)
+//!    gets the origin zero too.
+//! 3. Otherwise both the origin zero and the centre of the bounding box are tried. The centre is taken only where it
+//!    makes the worst rounding more than four times smaller, as it does far from the origin; elsewhere a shift would gain
+//!    nothing.
+//! 4. A glTF scene whose vertices are all exact in `f32` but for one translation gets that translation as origin.
+//!
+//! [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can include it.
 
 use crate::error::{MeshError, Place};
 
 /// Triangles over shared vertices, with attributes that belong to vertices.
 ///
 /// Every index in `triangles` is below `positions.len()`; every position is finite.
+///
+/// ```
+/// let triangle = nephrite_formats::TriangleMesh {
+///     positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+///     triangles: vec![[0, 1, 2]],
+///     ..Default::default()
+/// };
+/// assert!(triangle.check().is_ok());
+/// assert_eq!(triangle.point(1), [1.0, 0.0, 0.0]);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
     /// Added to every position to give file coordinates; zero unless a shift makes the rounding much smaller
@@ -32,6 +46,15 @@ pub struct TriangleMesh {
 ///
 /// The conventional names are `normal` (3 components), `color` (3 or 4) and `texcoord` (2); anything else keeps
 /// the name it had in the file.
+///
+/// ```
+/// use nephrite_formats::{Attribute, ScalarType};
+///
+/// // The colours of two vertices.
+/// let color =
+///     Attribute { name: "color".into(), scalar: ScalarType::U8, n_components: 3, bytes: vec![255, 0, 0, 0, 0, 255] };
+/// assert_eq!(color.stride_bytes(), 3);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Attribute {
     /// Name of the attribute.

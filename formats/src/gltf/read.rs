@@ -107,14 +107,14 @@ impl<'a> Assembly<'a> {
 
     /// Takes from the budget what a primitive will add, before anything is allocated for it.
     fn spend(&mut self, primitive: &Primitive, shared: &Shared<'_>, place: Place) -> Result<(), MeshError> {
-        let mut cost = 1;
+        let mut cost = 1_u64;
         if !shared.contains_key(&primitive.attributes)
             && let Some(&accessor) = primitive.attributes.get("POSITION")
         {
-            cost += self.source.count(accessor)?;
+            cost = cost.saturating_add(self.source.count(accessor)?);
         }
         if let Some(accessor) = primitive.indices {
-            cost = u64::saturating_add(cost, self.source.count(accessor)?);
+            cost = cost.saturating_add(self.source.count(accessor)?);
         }
         let what = "vertices and indices of all instances together";
         let too_large = MeshError::CountTooLarge { place, what, count: cost, limit: self.budget };

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::parse::{NONE, Statements};
-use crate::coordinates::{Coordinates, from_f64};
+use crate::coordinates::{Coordinates, from_text};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
 use crate::{Attribute, MeshFormat, ReadReport, TriangleMesh, Warning};
@@ -18,7 +18,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError
     let mut report = ReadReport::new(MeshFormat::Obj);
     report.n_ignored_elements = statements.n_ignored;
     let vertices = Vertices::number(&statements)?;
-    let Coordinates { origin, positions: listed, rounding } = from_f64(&statements.positions)?;
+    let Coordinates { origin, positions: listed, rounding } = from_text(&statements.positions)?;
     let positions: Vec<[f32; 3]> = vertices.triples.iter().map(|triple| listed[triple[0] as usize]).collect();
     let mut faces = Faces::default();
     let mut start = 0;

@@ -1,6 +1,6 @@
 //! OFF files.
 
-use crate::coordinates::{Coordinates, from_f64, nearest_f32};
+use crate::coordinates::{Coordinates, from_text, nearest_f32};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
 use crate::text::{Scanner, Style, parse_integer, parse_number};
@@ -121,7 +121,7 @@ fn vertices(
     if keyword.has_texcoords {
         attributes.push(Attribute::from_f32("texcoord", 2, column(n_extras - 2..n_extras).map(nearest_f32)));
     }
-    Ok((from_f64(&points)?, attributes))
+    Ok((from_text(&points)?, attributes))
 }
 
 /// Components of the colours, told by the number of words in the first vertex's line: three where there is no fourth.

@@ -106,7 +106,7 @@ impl Values for Binary<'_> {
         let n_records = usize::try_from(element.count).unwrap_or(usize::MAX);
         if !element.has_lists() {
             let bytes = self.take(element.count.saturating_mul(stride_bytes as u64), "vertex data")?;
-            let records = Records { bytes, n_records, stride_bytes, fields, is_big_endian };
+            let records = Records { bytes, n_records, stride_bytes, fields, is_big_endian, is_text: false };
             return take_apart(&records, element, report);
         }
         let mut packed = Vec::with_capacity(n_records.saturating_mul(stride_bytes));
@@ -122,7 +122,8 @@ impl Values for Binary<'_> {
                 }
             }
         }
-        let records = Records { bytes: &packed, n_records, stride_bytes, fields, is_big_endian };
+        let records =
+            Records { bytes: &packed, n_records, stride_bytes, fields, is_big_endian, is_text: false };
         take_apart(&records, element, report)
     }
 

@@ -154,7 +154,8 @@ impl Values for Text<'_> {
             }
             self.end_record();
         }
-        let records = Records { bytes: &packed, n_records, stride_bytes, fields, is_big_endian: false };
+        let records =
+            Records { bytes: &packed, n_records, stride_bytes, fields, is_big_endian: false, is_text: true };
         take_apart(&records, &wide, report)
     }
 

@@ -4,7 +4,7 @@
 
 use super::header::{Element, PropertyKind};
 use super::names::plan_attributes;
-use crate::coordinates::{Coordinates, from_f32, from_f64};
+use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
 use crate::error::{MeshError, Place};
 use crate::{Attribute, ReadReport, ScalarType, Warning};
 
@@ -16,6 +16,8 @@ pub(crate) struct Records<'a> {
     /// Offset and type of each property in a record; `None` for lists, which are not in it.
     pub fields: Vec<Option<Field>>,
     pub is_big_endian: bool,
+    /// The values were text.
+    pub is_text: bool,
 }
 
 /// A scalar in a record.
@@ -120,7 +122,8 @@ fn positions(records: &Records<'_>, places: [usize; 3]) -> Result<Coordinates, M
     }
     let point =
         |record: &[u8]| std::array::from_fn(|axis| scalar_value(record, fields[axis], records.is_big_endian));
-    from_f64(&records.iter().map(point).collect::<Vec<[f64; 3]>>())
+    let points: Vec<[f64; 3]> = records.iter().map(point).collect();
+    if records.is_text { from_text(&points) } else { from_f64(&points) }
 }
 
 /// Positions whose three values stand side by side: the layout of nearly every scan, at the speed of a copy.

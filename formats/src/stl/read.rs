@@ -1,7 +1,7 @@
 //! STL files, binary and text.
 
 use super::weld::weld;
-use crate::coordinates::{Coordinates, check_coordinate, from_f32, from_f64};
+use crate::coordinates::{Coordinates, check_coordinate, from_f32, from_text};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
 use crate::text::{Scanner, Style};
@@ -105,7 +105,7 @@ fn read_text(bytes: &[u8], report: &mut ReadReport) -> Result<Soup, MeshError> {
     if !is_closed {
         return Err(scanner.unexpected("endsolid", None));
     }
-    let coordinates = from_f64(&points)?;
+    let coordinates = from_text(&points)?;
     let triangles = faces.into_triangles(&coordinates.positions, report);
     Ok((coordinates, triangles))
 }
