@@ -9,6 +9,7 @@ pub mod history;
 pub mod measure;
 pub mod mesh;
 pub mod query;
+pub mod reprove;
 pub mod store;
 pub mod tree;
 

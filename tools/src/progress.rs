@@ -1,4 +1,5 @@
-//! A build as it goes: phase, triangles left, current error and time left, on stderr where somebody watches.
+//! Long work as it goes, a build with its phase, triangles left, current error and time left, on stderr where somebody
+//! watches.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -46,6 +47,16 @@ impl BuildBar {
         self.bar.set_message(message);
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
+}
+
+/// A bar that counts levels.
+pub(crate) fn levels(n_levels: u32) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(n_levels.into()), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("prove    [{wide_bar}] level {pos} of {len}, {eta} left")
+    {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
 }
 
 impl Drop for BuildBar {

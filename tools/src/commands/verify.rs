@@ -1,21 +1,32 @@
 //! `nephrite verify`: every checksum and every invariant of a file.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
+use nephrite::query::Lod;
+use nephrite::reprove::{ErrorTable, ReproveError};
 use serde_json::json;
 
 use crate::failure::Failure;
 use crate::report::Report;
 use crate::threads::Threads;
-use crate::{figures, files};
+use crate::{figures, files, progress};
 
-/// Check every checksum and every invariant of a file.
+/// Check every checksum and every invariant of a file, and with `--bound` prove its errors anew.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// File that `build` wrote
     file: PathBuf,
+
+    /// Prove from the file alone that every level is as near to the finest one as it says, both ways
+    #[arg(long)]
+    bound: bool,
+
+    /// With --bound: prove N levels spread over the file instead of all
+    #[arg(long, value_name = "N", requires = "bound")]
+    bound_levels: Option<NonZeroU32>,
 
     #[command(flatten)]
     threads: Threads,
@@ -25,10 +36,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let start = Instant::now();
     let lod = files::open_lod(&arguments.file)?;
     arguments.threads.run(|| lod.verify())?.map_err(|source| Failure::file(&arguments.file, source))?;
+    let n_proven = if arguments.bound {
+        let prove = || prove_errors(&lod, arguments.bound_levels);
+        Some(arguments.threads.run(prove)?.map_err(|source| Failure::file(&arguments.file, source))?)
+    } else {
+        None
+    };
     let seconds = start.elapsed();
+    let proven =
+        n_proven.map_or(String::new(), |n| format!(", the errors of {} proven anew", figures::count(n)));
     Ok(Report {
         text: format!(
-            "{}: in order, {} triangles in {} levels, {}\n",
+            "{}: in order, {} triangles in {} levels{proven}, {}\n",
             arguments.file.display(),
             figures::count(lod.n_lifetimes()),
             figures::count(lod.n_levels()),
@@ -37,9 +56,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         json: json!({
             "ok": true,
             "levels": lod.n_levels(),
+            "levels_proven": n_proven,
             "triangles_stored": lod.n_lifetimes(),
             "file_bytes": lod.file_bytes(),
             "seconds": seconds.as_secs_f64(),
         }),
     })
+}
+
+/// Proves the errors of all levels, or of `n_wanted` levels from the second to the last; returns how many.
+fn prove_errors(lod: &Lod, n_wanted: Option<NonZeroU32>) -> Result<u32, ReproveError> {
+    let table = ErrorTable::new(lod)?;
+    let last = lod.n_levels().saturating_sub(1);
+    let n_levels = n_wanted.map_or(last, NonZeroU32::get).min(last);
+    let bar = progress::levels(n_levels);
+    for i in 1..=n_levels {
+        let level = u64::from(last) * u64::from(i) / u64::from(n_levels);
+        table.prove(u32::try_from(level).unwrap_or(last))?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(n_levels)
 }

@@ -1,0 +1,96 @@
+//! Proving a file's error table anew, from the file alone.
+//!
+//! The builder states each level's error from a map that it carried along. Nothing of that is used here: the finest level
+//! of the file is the input, every level is a mesh, and the distance between the two is bounded in both directions by
+//! branch and bound ([`check_within`]). The two proofs share no code beyond the distance of a point to a triangle.
+
+use crate::measure::{MeasureError, Verdict, check_within};
+use crate::query::{Lod, QueryError};
+use nephrite_formats::TriangleMesh;
+
+/// Pieces after which the proof of a level is given up.
+const MAX_PIECES: usize = 20_000_000;
+
+/// The errors that a file states, and the mesh that they are relative to.
+#[derive(Debug)]
+pub struct ErrorTable<'a> {
+    lod: &'a Lod,
+    input: TriangleMesh,
+}
+
+/// Why a level's error was not proven anew.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReproveError {
+    /// The file does not claim a proof.
+    #[error("errors are of the kind {found}, only certified ones can be proven")]
+    NotCertified {
+        /// What the file's metadata say the errors are.
+        found: String,
+    },
+    /// The error is wrong.
+    #[error("level {level} states an error of {stated:e}, a point is {distance:e} away")]
+    Exceeded {
+        /// The level.
+        level: u32,
+        /// Its error, in mesh units.
+        stated: f64,
+        /// A distance that occurs, in mesh units.
+        distance: f64,
+    },
+    /// The proof did not come to an end.
+    #[error("level {level} states an error of {stated:e}, proven is {upper_bound:e}")]
+    Undecided {
+        /// The level.
+        level: u32,
+        /// Its error, in mesh units.
+        stated: f64,
+        /// Proven bound of its distance, in mesh units.
+        upper_bound: f64,
+    },
+    /// The metadata cannot be read.
+    #[error("metadata cannot be read: {0}")]
+    Metadata(String),
+    /// A level cannot be taken out of the file.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+    /// A level has no distance.
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
+}
+
+impl<'a> ErrorTable<'a> {
+    /// The error table of `lod`. Copies the finest level.
+    ///
+    /// # Errors
+    ///
+    /// [`ReproveError`] when the file's errors are estimates, or its finest level is damaged.
+    pub fn new(lod: &'a Lod) -> Result<Self, ReproveError> {
+        let metadata = lod.metadata().map_err(|error| ReproveError::Metadata(error.to_string()))?;
+        let found = metadata.provenance.bound;
+        if found != "certified" {
+            return Err(ReproveError::NotCertified { found });
+        }
+        Ok(Self { lod, input: lod.at_level(0).to_mesh()? })
+    }
+
+    /// Proves that no point of level `level` is farther from the input than the level's error, nor the other way round.
+    /// Level 0 is the input, so there is nothing to prove. Costs about as much as measuring the distance.
+    ///
+    /// # Errors
+    ///
+    /// [`ReproveError::Exceeded`] when the error is wrong, [`ReproveError::Undecided`] when this proof fails, and what
+    /// stands in the way of trying.
+    pub fn prove(&self, level: u32) -> Result<(), ReproveError> {
+        let cut = self.lod.at_level(level);
+        if cut.level() == 0 {
+            return Ok(());
+        }
+        let stated = cut.error();
+        match check_within(&self.input, &cut.to_mesh()?, stated, MAX_PIECES)? {
+            Verdict::Within => Ok(()),
+            Verdict::Beyond { distance, .. } => Err(ReproveError::Exceeded { level, stated, distance }),
+            Verdict::Undecided { upper_bound } => Err(ReproveError::Undecided { level, stated, upper_bound }),
+        }
+    }
+}
