@@ -20,4 +20,5 @@ mod text;
 pub use error::{MeshError, Place};
 pub use format::{MeshFormat, read_mesh, read_mesh_bytes, write_mesh, write_mesh_to};
 pub use mesh::{Attribute, ScalarType, TriangleMesh};
+pub use publish::publish;
 pub use report::{ReadReport, Warning};

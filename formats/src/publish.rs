@@ -17,7 +17,7 @@ const BUFFER_BYTES: usize = 256 * 1024;
 /// # Errors
 ///
 /// Those of `write` and of the file system. `path` is then as it was.
-pub(crate) fn publish<E: From<io::Error>>(
+pub fn publish<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
 ) -> Result<(), E> {

@@ -79,17 +79,20 @@ pub fn measure(
         let one_sided = measure_one_sided(source, target, &pair.uncertainty, options);
         OneSided { farthest: pair.frame.to_file(one_sided.farthest), ..one_sided }
     });
+    let is_narrow = |one_sided: &OneSided| {
+        let width = one_sided.upper_bound - one_sided.lower_bound - 2.0 * pair.uncertainty.total();
+        width <= options.tolerance * one_sided.upper_bound
+            || one_sided.upper_bound <= 2.0 * pair.uncertainty.floor()
+    };
     let lower_bound = forward.lower_bound.max(backward.lower_bound);
     let upper_bound = forward.upper_bound.max(backward.upper_bound);
-    let width = upper_bound - lower_bound - 2.0 * pair.uncertainty.total();
     Ok(Distance {
         max: forward.max.max(backward.max),
         mean: 0.5 * (forward.mean + backward.mean),
         rms: forward.rms.max(backward.rms),
         lower_bound,
         upper_bound,
-        is_within_tolerance: width <= options.tolerance * upper_bound
-            || upper_bound <= 2.0 * pair.uncertainty.floor(),
+        is_within_tolerance: is_narrow(&forward) && is_narrow(&backward),
         forward,
         backward,
         bounding_diagonal: pair.frame.bounding_diagonal,

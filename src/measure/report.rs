@@ -32,7 +32,7 @@ pub struct Distance {
     pub lower_bound: f64,
     /// Proven: the Hausdorff distance is no more.
     pub upper_bound: f64,
-    /// Whether the bracket is as narrow as the tolerance asks.
+    /// Whether the brackets of both directions are as narrow as the tolerance asks.
     pub is_within_tolerance: bool,
     /// From the reference to the mesh.
     pub forward: OneSided,

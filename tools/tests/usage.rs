@@ -28,6 +28,9 @@ fn wrong_usage_has_status_two() {
         "generate -o out.ply",
         "generate cosine",
         "generate cosine --side 1 -o out.ply",
+        "measure in.ply",
+        "measure in.ply out.ply --samples 0",
+        "measure in.ply out.ply --tolerance 0",
         "completions none",
     ] {
         let run = place.run(line);
@@ -46,7 +49,9 @@ fn wrong_usage_has_status_two() {
 fn help_names_every_command_and_option() {
     let place = Workplace::new();
     let help = place.done("--help");
-    for command in ["demo", "generate", "build", "extract", "info", "verify", "bench", "completions"] {
+    for command in
+        ["demo", "generate", "build", "extract", "info", "verify", "measure", "bench", "completions"]
+    {
         assert!(help.contains(&format!("\n  {command} ")), "{help}");
         assert!(place.done(&format!("{command} --help")).contains("--json"), "{command}");
     }

@@ -7,6 +7,7 @@ mod demo;
 mod extract;
 mod generate;
 mod info;
+mod measure;
 mod verify;
 
 use clap::Subcommand;
@@ -23,6 +24,7 @@ pub(crate) enum Command {
     Extract(extract::Arguments),
     Info(info::Arguments),
     Verify(verify::Arguments),
+    Measure(measure::Arguments),
     Bench(bench::Arguments),
     Completions(completions::Arguments),
 }
@@ -41,6 +43,7 @@ impl Command {
             Self::Extract(arguments) => extract::run(arguments),
             Self::Info(arguments) => info::run(arguments),
             Self::Verify(arguments) => verify::run(arguments),
+            Self::Measure(arguments) => measure::run(arguments),
             Self::Bench(arguments) => bench::run(arguments),
             Self::Completions(arguments) => Ok(completions::run(arguments)),
         }
