@@ -34,7 +34,9 @@ fn failures(lod: &Lod) -> Vec<ReproveError> {
 
 #[test]
 fn what_the_builder_states_is_proven_again() {
-    for mesh in [generate::cosine(40), generate::torus(40, 20), generate::plate(2, 2, 12), generate::moebius(48, 5)] {
+    for mesh in
+        [generate::cosine(40), generate::torus(40, 20), generate::plate(2, 2, 12), generate::moebius(48, 5)]
+    {
         let build = build_all(&mesh, &BuildOptions::default());
         let lod = file(&build.mesh, &build.history, "certified");
         assert!(lod.n_levels() > 8);

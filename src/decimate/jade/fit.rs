@@ -24,20 +24,40 @@ pub fn fit(
     polygons: &mut Polygons,
     filling: &mut Filling,
 ) -> Option<f64> {
-    filling.triangles.clear();
     let is_tetrahedron = hole.closed && hole.n_ring() == 3 && surface.has_triangle(triple(hole));
     if !covered.has_sides() || is_tetrahedron {
         return None;
     }
-    let is_free = free_edges(surface, hole);
+    // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
+    let mut is_taken = [[false; MAX_CORNERS]; MAX_CORNERS];
+    loop {
+        let worst_sq = fit_around(hole, class, covered, &is_taken, polygons, filling)?;
+        let n_faces = |[i, j]: [u8; 2]| surface.n_faces(hole.ring[usize::from(i)], hole.ring[usize::from(j)]);
+        let Some([i, j]) = filling.inner_edges(hole).find(|&edge| n_faces(edge) > 0) else {
+            return Some(worst_sq);
+        };
+        is_taken[usize::from(i)][usize::from(j)] = true;
+        is_taken[usize::from(j)][usize::from(i)] = true;
+    }
+}
+
+/// The same without the edges between ring vertices that are taken.
+fn fit_around(
+    hole: &Hole,
+    class: Class,
+    covered: &Covered,
+    is_taken: &[[bool; MAX_CORNERS]; MAX_CORNERS],
+    polygons: &mut Polygons,
+    filling: &mut Filling,
+) -> Option<f64> {
+    filling.triangles.clear();
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     let score = |triangle: [u8; 3], cutoff: f64| {
         let [a, b, c] = triangle.map(usize::from);
-        if is_free[a][b] && is_free[b][c] && is_free[a][c] {
-            largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff)
-        } else {
-            f64::INFINITY
+        if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
+            return f64::INFINITY;
         }
+        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff)
     };
     let (from, to, is_split) = match class {
         Class::InteriorEdge([from, to]) => (from, to, true),
@@ -64,32 +84,20 @@ fn largest_distance_sq(
     worst_aspect: f64,
     cutoff: f64,
 ) -> f64 {
-    let corners = triangle.map(|i| hole.points[usize::from(i)]);
-    if covered.flat_area(triangle) <= 0.0 || aspect(&corners) < worst_aspect {
+    if covered.flat_area(triangle) <= 0.0 {
         return f64::INFINITY;
     }
+    let corners = triangle.map(|i| hole.points[usize::from(i)]);
     let mut largest_sq = 0.0_f64;
     for p in covered.points_over(Over::new(triangle)) {
         largest_sq = largest_sq.max(point_triangle_distance_sq(p, &corners));
         if largest_sq > cutoff {
-            break;
+            return largest_sq;
         }
     }
-    largest_sq
+    if aspect(&corners) < worst_aspect { f64::INFINITY } else { largest_sq }
 }
 
 fn triple(hole: &Hole) -> [u32; 3] {
     [hole.ring[0], hole.ring[1], hole.ring[2]]
-}
-
-/// Which pairs of ring vertices are a ring edge, or no edge yet.
-fn free_edges(surface: &Surface, hole: &Hole) -> [[bool; MAX_CORNERS]; MAX_CORNERS] {
-    let mut is_free = [[true; MAX_CORNERS]; MAX_CORNERS];
-    for (j, &b) in hole.ring.iter().enumerate() {
-        for (i, &a) in hole.ring[..j].iter().enumerate().filter(|&(i, _)| !hole.is_ring_edge(i, j)) {
-            is_free[i][j] = surface.n_faces(a, b) == 0;
-            is_free[j][i] = is_free[i][j];
-        }
-    }
-    is_free
 }
