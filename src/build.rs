@@ -166,28 +166,29 @@ pub fn build(
     if !tell(Phase::Repair, n_triangles_in, 0.0) {
         return Err(BuildError::Interrupted);
     }
-    let Repaired { mesh, points, report: repairs } = repair(mesh);
+    let Repaired { mesh, points, looks, report: repairs } = repair(mesh);
     if mesh.triangles.is_empty() {
         return Err(BuildError::NoTriangles { n_triangles: n_triangles_in });
     }
     let go_on = |decimation: &Decimation| {
         tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
     };
-    let history = decimate(&mesh, points.as_deref(), options, &go_on)?;
+    let history = decimate(&mesh, points.zip(looks), options, &go_on)?;
     Ok(Build { mesh, history, repairs })
 }
 
 fn decimate(
     mesh: &TriangleMesh,
-    points: Option<&[u32]>,
+    points_and_looks: Option<(Vec<u32>, Vec<u32>)>,
     options: &BuildOptions,
     go_on: &dyn Fn(&Decimation) -> bool,
 ) -> Result<History, BuildError> {
     let triangles = mesh.triangles.clone();
-    let (triangles, seams) = match points {
+    let (triangles, seams) = match points_and_looks {
         None => (triangles, None),
-        Some(points) => {
-            (triangles.iter().map(|t| t.map(|v| points[v as usize])).collect(), Some(Seams::new(triangles)))
+        Some((points, looks)) => {
+            let over_points = triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
+            (over_points, Some(Seams::new(triangles, looks)))
         }
     };
     let surface = Surface::new(mesh.positions.clone(), triangles);

@@ -13,7 +13,7 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
     /// A recorder for an input of `n_slots` simplices over `n_vertices` vertices, at step 0 with the given error.
     pub fn new(n_slots: usize, n_vertices: usize, error: f64) -> Self {
         let history =
-            History { vertex_death: vec![NEVER; n_vertices], errors: vec![error], ..History::default() };
+            History { vertex_death: vec![0; n_vertices], errors: vec![error], ..History::default() };
         Self { history, birth_in_slot: vec![0; n_slots] }
     }
 
@@ -39,14 +39,16 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         self.birth_in_slot[slot as usize] = self.now();
     }
 
-    /// Vertex `v` dies at this step.
-    pub fn vertex_death(&mut self, v: u32) {
-        self.history.vertex_death[v as usize] = self.now();
-    }
-
-    /// The whole history, given what is alive now.
+    /// The whole history, given what is alive now. A vertex dies with the last simplex that uses it.
     pub fn finish(mut self, alive: impl Iterator<Item = (u32, [u32; CORNERS])>) -> History<CORNERS> {
         alive.for_each(|(slot, simplex)| self.record(slot, simplex, NEVER));
+        let History { simplices, death, vertex_death, .. } = &mut self.history;
+        for (simplex, &death) in simplices.iter().zip(death.iter()) {
+            for &v in simplex {
+                let last = &mut vertex_death[v as usize];
+                *last = death.max(*last);
+            }
+        }
         self.history
     }
 

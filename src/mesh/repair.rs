@@ -4,7 +4,9 @@
 //!
 //! 1. Vertices equal in position (bit for bit, `-0` equal to `0`) and in every attribute become one vertex.
 //! 2. Vertices equal in position alone are *seam* vertices: they stay apart in the output, since their attributes
-//!    differ, and share one *point* in the topology, so that the two sides of a seam never come apart.
+//!    differ, and share one *point* in the topology, so that the two sides of a seam never come apart. Where nothing but
+//!    their normals differs they share their *look* as well, and the seam binds nobody: flat shading would make a seam of
+//!    every edge.
 //! 3. A triangle with two corners on one point is no surface: dropped.
 //! 4. A triangle with the same three points in the same orientation as an earlier one is dropped. The opposite
 //!    orientation is kept: two-sided sheets are drawn that way.
@@ -42,6 +44,8 @@ pub struct Repaired {
     /// The point of each vertex, where some vertices share one: `points[v] <= v` is the first vertex at that position.
     /// `None` where every vertex has a position of its own.
     pub points: Option<Vec<u32>>,
+    /// The look of each vertex, where `points` is there: the first vertex that differs from it at most in the normal.
+    pub looks: Option<Vec<u32>>,
     /// What was done.
     pub report: RepairReport,
 }
@@ -49,7 +53,7 @@ pub struct Repaired {
 /// Applies the rules of this module. O(n log n).
 pub fn repair(mesh: &TriangleMesh) -> Repaired {
     let mut report = RepairReport::default();
-    let (vertices, points) = weld(mesh);
+    let Weld { vertices, points, looks } = weld(mesh);
     report.vertices_welded = count_moved(&vertices);
 
     let mut triangles = Vec::with_capacity(mesh.triangles.len());
@@ -70,30 +74,50 @@ pub fn repair(mesh: &TriangleMesh) -> Repaired {
     for triangle in &mut triangles {
         *triangle = triangle.map(|v| renumbered[v as usize]);
     }
-    let points = seam_points(&points, &renumbered, n_used);
-    report.vertices_on_seams = points.as_deref().map_or(0, count_shared);
-    Repaired { mesh: keep_used(mesh, triangles, &renumbered), points, report }
+    let points = first_used(&points, &renumbered, n_used);
+    report.vertices_on_seams = count_shared(&points);
+    let has_seams = report.vertices_on_seams > 0;
+    let looks = has_seams.then(|| first_used(&looks, &renumbered, n_used));
+    let points = has_seams.then_some(points);
+    Repaired { mesh: keep_used(mesh, triangles, &renumbered), points, looks, report }
 }
 
 const UNUSED: u32 = u32::MAX;
 
-/// For each vertex the first vertex identical to it, and the first vertex at its position.
-fn weld(mesh: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
+/// For each vertex the first one that is the same in some sense.
+struct Weld {
+    /// Identical to it.
+    vertices: Vec<u32>,
+    /// At its position.
+    points: Vec<u32>,
+    /// At its position, with the same attributes but for the normal.
+    looks: Vec<u32>,
+}
+
+fn weld(mesh: &TriangleMesh) -> Weld {
     let n_vertices = vertex_count(mesh);
     let mut order: Vec<u32> = (0..n_vertices).collect();
     order.par_sort_unstable_by(|&a, &b| compare_vertices(mesh, a, b).then(a.cmp(&b)));
     let mut vertices: Vec<u32> = (0..n_vertices).collect();
-    let mut points = vertices.clone();
+    let (mut points, mut looks) = (vertices.clone(), vertices.clone());
     for same_place in order.chunk_by(|&a, &b| position_key(mesh, a) == position_key(mesh, b)) {
-        let point = same_place.iter().copied().min().unwrap_or_default();
-        for same in same_place.chunk_by(|&a, &b| compare_vertices(mesh, a, b) == Ordering::Equal) {
-            for &v in same {
-                vertices[v as usize] = same[0];
-                points[v as usize] = point;
+        let point = lowest(same_place);
+        for same_look in same_place.chunk_by(|&a, &b| compare_looks(mesh, a, b).is_eq()) {
+            let look = lowest(same_look);
+            for same in same_look.chunk_by(|&a, &b| compare_vertices(mesh, a, b).is_eq()) {
+                for &v in same {
+                    vertices[v as usize] = same[0];
+                    points[v as usize] = point;
+                    looks[v as usize] = look;
+                }
             }
         }
     }
-    (vertices, points)
+    Weld { vertices, points, looks }
+}
+
+fn lowest(vertices: &[u32]) -> u32 {
+    vertices.iter().copied().min().unwrap_or_default()
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "readers refuse meshes of more than u32::MAX vertices")]
@@ -101,14 +125,27 @@ fn vertex_count(mesh: &TriangleMesh) -> u32 {
     mesh.positions.len() as u32
 }
 
+/// By position, then by look, then by normal.
 fn compare_vertices(mesh: &TriangleMesh, a: u32, b: u32) -> Ordering {
-    position_key(mesh, a).cmp(&position_key(mesh, b)).then_with(|| {
-        mesh.attributes
-            .iter()
-            .map(|attribute| value(attribute, a).cmp(value(attribute, b)))
-            .find(|order| order.is_ne())
-            .unwrap_or(Ordering::Equal)
+    let by_position = || position_key(mesh, a).cmp(&position_key(mesh, b));
+    by_position().then_with(|| compare_looks(mesh, a, b)).then_with(|| {
+        compare_attributes(mesh.attributes.iter().filter(|attribute| is_normal(attribute)), a, b)
     })
+}
+
+/// By all attributes but the normal.
+fn compare_looks(mesh: &TriangleMesh, a: u32, b: u32) -> Ordering {
+    compare_attributes(mesh.attributes.iter().filter(|attribute| !is_normal(attribute)), a, b)
+}
+
+fn compare_attributes<'a>(attributes: impl Iterator<Item = &'a Attribute>, a: u32, b: u32) -> Ordering {
+    let mut orders = attributes.map(|attribute| value(attribute, a).cmp(value(attribute, b)));
+    orders.find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+}
+
+/// Whether an attribute is what readers call a normal.
+fn is_normal(attribute: &Attribute) -> bool {
+    attribute.name == "normal"
 }
 
 /// The bits of a position, with `-0` turned into `0`.
@@ -167,18 +204,18 @@ fn renumber_referenced(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     renumbered
 }
 
-/// The point of each kept vertex in the new numbering, or `None` where every vertex is a point of its own.
-fn seam_points(points: &[u32], renumbered: &[u32], n_used: usize) -> Option<Vec<u32>> {
-    let mut first_at_point = vec![UNUSED; points.len()];
-    let mut seams = Vec::with_capacity(n_used);
-    for (&point, &index) in points.iter().zip(renumbered).filter(|&(_, &index)| index != UNUSED) {
-        let first = &mut first_at_point[point as usize];
+/// For each kept vertex, in the new numbering, the first kept vertex with the same entry in `firsts`.
+fn first_used(firsts: &[u32], renumbered: &[u32], n_used: usize) -> Vec<u32> {
+    let mut first_kept = vec![UNUSED; firsts.len()];
+    let mut kept = Vec::with_capacity(n_used);
+    for (&first, &index) in firsts.iter().zip(renumbered).filter(|&(_, &index)| index != UNUSED) {
+        let first = &mut first_kept[first as usize];
         if *first == UNUSED {
             *first = index;
         }
-        seams.push(*first);
+        kept.push(*first);
     }
-    (count_moved(&seams) > 0).then_some(seams)
+    kept
 }
 
 /// Vertices whose point another vertex shares.
@@ -225,7 +262,7 @@ mod tests {
     fn a_clean_mesh_is_left_alone() {
         let clean = mesh(&CORNERS, &[[0, 1, 2], [2, 1, 3]]);
         let repaired = repair(&clean);
-        assert_eq!(repaired, Repaired { mesh: clean, points: None, report: RepairReport::default() });
+        assert_eq!(repaired, Repaired { mesh: clean, ..Repaired::default() });
     }
 
     #[test]
@@ -251,7 +288,23 @@ mod tests {
         let repaired = repair(&seam);
         assert_eq!(repaired.mesh, seam);
         assert_eq!(repaired.points, Some(vec![0, 1, 2, 1]));
+        assert_eq!(repaired.looks, Some(vec![0, 1, 2, 3]));
         assert_eq!(repaired.report, RepairReport { vertices_on_seams: 2, ..RepairReport::default() });
+    }
+
+    #[test]
+    fn vertices_that_differ_in_the_normal_share_their_look() {
+        let mut flat = mesh(&[CORNERS[0], CORNERS[1], CORNERS[2], CORNERS[1]], &[[0, 1, 2], [2, 3, 0]]);
+        let bytes = vec![1, 1, 1, 2];
+        flat.attributes.push(Attribute {
+            name: "normal".into(),
+            scalar: ScalarType::U8,
+            n_components: 1,
+            bytes,
+        });
+        let repaired = repair(&flat);
+        assert_eq!(repaired.mesh, flat);
+        assert_eq!((repaired.points, repaired.looks), (Some(vec![0, 1, 2, 1]), Some(vec![0, 1, 2, 1])));
     }
 
     #[test]

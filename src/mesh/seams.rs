@@ -8,12 +8,20 @@ use super::Surface;
 #[derive(Clone, Debug)]
 pub struct Seams {
     vertices: Vec<[u32; 3]>,
+    looks: Vec<u32>,
 }
 
 impl Seams {
-    /// Seams of a mesh whose slot `t` has the vertices `triangles[t]`.
-    pub fn new(triangles: Vec<[u32; 3]>) -> Self {
-        Self { vertices: triangles }
+    /// Seams of a mesh whose slot `t` has the vertices `triangles[t]`, and whose vertices look the same where their entries
+    /// in `looks` agree.
+    pub fn new(triangles: Vec<[u32; 3]>, looks: Vec<u32>) -> Self {
+        Self { vertices: triangles, looks }
+    }
+
+    /// Whether the surface looks different on either side of a common point of the triangles in two slots.
+    pub fn differ(&self, surface: &Surface, slots: [u32; 2], point: u32) -> bool {
+        let [a, b] = slots.map(|slot| self.looks[self.vertex(surface, slot, point) as usize]);
+        a != b
     }
 
     /// The vertex that the triangle in `slot` has at `point`, one of its corners.

@@ -58,8 +58,6 @@ fn is_feature(hole: &Hole, before: usize, after: usize, cos_feature_angle: f64) 
 }
 
 fn is_seam_spoke(hole: &Hole, surface: &Surface, seams: &Seams, before: usize, after: usize) -> bool {
-    let differ = |point: u32| {
-        seams.vertex(surface, hole.slots[before], point) != seams.vertex(surface, hole.slots[after], point)
-    };
-    differ(hole.removed) || differ(hole.ring[after])
+    let slots = [hole.slots[before], hole.slots[after]];
+    seams.differ(surface, slots, hole.removed) || seams.differ(surface, slots, hole.ring[after])
 }

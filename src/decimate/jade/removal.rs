@@ -3,7 +3,6 @@
 use super::candidate::{Scratch, Situation, Verdict, judge};
 use super::rounds::Decimation;
 use crate::bound::{Change, GlobalError, Limits, Replacement};
-use crate::history::Recorder;
 use crate::mesh::{Filling, Hole, Seams, Surface};
 
 /// All that a removal changes.
@@ -43,7 +42,12 @@ impl Plan {
         let Self { hole, filling, error: step_error, change } = self;
         let Decimation { surface, seams, error, recorder, .. } = decimation;
         recorder.step(step_error);
-        record_deaths(recorder, surface, seams.as_ref(), &hole);
+        for &slot in &hole.slots {
+            recorder.death(
+                slot,
+                seams.as_ref().map_or_else(|| surface.corners(slot), |seams| seams.corners(slot)),
+            );
+        }
         error.apply(&hole, change);
         let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(&hole, i)).collect();
         let vertices = seams.as_ref().map(|seams| seam_vertices(surface, seams, &hole, &filling));
@@ -54,15 +58,6 @@ impl Plan {
                 seams.set(slot, vertices[i]);
             }
         }
-    }
-}
-
-fn record_deaths(recorder: &mut Recorder, surface: &Surface, seams: Option<&Seams>, hole: &Hole) {
-    for &slot in &hole.slots {
-        let corners = seams.map_or_else(|| surface.corners(slot), |seams| seams.corners(slot));
-        let vertex = seams.map_or(hole.removed, |seams| seams.vertex(surface, slot, hole.removed));
-        recorder.death(slot, corners);
-        recorder.vertex_death(vertex);
     }
 }
 
