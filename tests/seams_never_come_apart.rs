@@ -40,7 +40,7 @@ fn attribute(name: &str, n_components: u32, values: &[f32]) -> Attribute {
 }
 
 fn is_on_seam(v: u32) -> bool {
-    v % (COLUMNS + 1) % COLUMNS == 0
+    (v % (COLUMNS + 1)).is_multiple_of(COLUMNS)
 }
 
 /// The vertex at the place of `v` that has the texture coordinate 0.
