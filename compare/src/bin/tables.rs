@@ -1,0 +1,199 @@
+//! Triangles at a given error, and error at a given triangle count, beside the figures of other systems.
+//!
+//! Bunny, fandisk and the cosine surface are simplified to the end, once under the proven bound and once under the
+//! paper's joint estimate, with every step kept as a level. Each row takes one level out and measures it against the
+//! input. Prints Markdown.
+
+use clap::Parser;
+use nephrite::measure::{Distance, MeasureOptions, measure};
+use nephrite::{Bound, BuildOptions, Cut, TriangleMesh, generate};
+use nephrite_compare::anchors::{AT_ERROR, AT_TRIANGLES, AtError, AtTriangles, Simplified, Subject};
+use nephrite_compare::statistics::geometric_mean;
+use nephrite_compare::{Build, CompareError, KeptLevels, Table, build_lod, load};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Debug, Parser)]
+#[command(about = "Errors and triangle counts beside published figures, as Markdown")]
+struct Arguments {
+    /// Folder that holds bunny_34834_le.ply and fandisk_le.ply
+    #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/surfaces"))]
+    meshes: PathBuf,
+
+    /// Samples on the edges, and as many in the triangles, of each surface
+    #[arg(long, default_value_t = 1_000_000)]
+    samples: usize,
+}
+
+/// A surface and all its levels under both meanings of the error.
+struct Study {
+    subject: Subject,
+    mesh: TriangleMesh,
+    certified: Build,
+    joint: Build,
+    options: MeasureOptions,
+}
+
+/// One level, measured; errors in percent of the diagonal.
+struct Level {
+    n_triangles: usize,
+    stated: f64,
+    measured: f64,
+}
+
+impl Study {
+    fn new(subject: Subject, arguments: &Arguments) -> Result<Self, CompareError> {
+        let mesh = surface(subject, &arguments.meshes)?;
+        let build = |bound| {
+            let options = BuildOptions { bound, ..BuildOptions::default() };
+            build_lod(&mesh, &options, KeptLevels::All)
+        };
+        let (certified, joint) = (build(Bound::Certified)?, build(Bound::Joint)?);
+        let options = MeasureOptions { n_samples: arguments.samples, ..MeasureOptions::default() };
+        Ok(Self { subject, certified, joint, options, mesh })
+    }
+
+    fn at_error(&self, build: &Build, percent: f64) -> Result<Level, CompareError> {
+        self.level(build.lod.at_error(percent / 100.0 * nephrite::bounding_diagonal(&self.mesh)))
+    }
+
+    fn level(&self, cut: Cut<'_>) -> Result<Level, CompareError> {
+        let Distance { max, bounding_diagonal, .. } = measure(&self.mesh, &cut.to_mesh()?, &self.options)?;
+        let percent = |length| 100.0 * length / bounding_diagonal;
+        Ok(Level { n_triangles: cut.n_triangles(), stated: percent(cut.error()), measured: percent(max) })
+    }
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("tables: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), CompareError> {
+    let studies = Subject::ALL
+        .into_iter()
+        .map(|subject| Study::new(subject, arguments))
+        .collect::<Result<Vec<_>, _>>()?;
+    for study in &studies {
+        println!(
+            "{}: {} levels in {:.2} s certified, {:.2} s joint, on {} threads",
+            study.subject.name(),
+            study.certified.lod.n_levels(),
+            study.certified.seconds,
+            study.joint.seconds,
+            rayon::current_num_threads(),
+        );
+    }
+    println!(
+        "\nTriangles needed at a given error; in brackets the largest two-sided error measured, in percent\n"
+    );
+    print_at_error(&studies)?;
+    println!("\nLargest two-sided error measured at a given number of triangles, in percent\n");
+    print_at_triangles(&studies)
+}
+
+fn surface(subject: Subject, folder: &Path) -> Result<TriangleMesh, CompareError> {
+    match subject {
+        Subject::Bunny => load(&folder.join("bunny_34834_le.ply")),
+        Subject::Fandisk => load(&folder.join("fandisk_le.ply")),
+        Subject::Cosine => Ok(generate::cosine(120)),
+    }
+}
+
+/// The rows that belong to each study.
+fn rows_of<'a, Row>(
+    studies: &'a [Study],
+    rows: &'a [Row],
+    subject_of: fn(&Row) -> Subject,
+) -> impl Iterator<Item = (&'a Study, &'a Row)> {
+    let belongs = move |study: &Study, row: &Row| study.subject == subject_of(row);
+    studies.iter().flat_map(move |study| {
+        rows.iter().filter(move |&row| belongs(study, row)).map(move |row| (study, row))
+    })
+}
+
+fn print_at_error(studies: &[Study]) -> Result<(), CompareError> {
+    let mut table = Table::new([
+        "mesh",
+        "error",
+        "JADE paper",
+        "CGAL envelope",
+        "certified",
+        "stated",
+        "certified / JADE",
+        "joint estimate",
+    ]);
+    let mut ratios = vec![];
+    for (study, row) in rows_of(studies, &AT_ERROR, |row: &AtError| row.subject) {
+        let certified = study.at_error(&study.certified, row.error)?;
+        let joint = study.at_error(&study.joint, row.error)?;
+        let ratio = row.jade.map(|jade| certified.n_triangles as f64 / f64::from(jade.n_triangles));
+        ratios.extend(ratio);
+        table.push([
+            study.subject.name().to_owned(),
+            format!("{:.2} %", row.error),
+            other(row.jade, row.error),
+            other(row.cgal_envelope, row.error),
+            ours(&certified),
+            format!("{:.4}", certified.stated),
+            ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.3}")),
+            ours(&joint),
+        ]);
+    }
+    println!("{table}");
+    println!("certified / JADE, geometric mean: {:.3}", geometric_mean(&ratios));
+    Ok(())
+}
+
+fn other(simplified: Option<Simplified>, error: f64) -> String {
+    simplified.map_or("-".to_owned(), |Simplified { n_triangles, measured }| {
+        let broken = if measured > error { ", exceeded" } else { "" };
+        format!("{n_triangles} ({measured:.3}{broken})")
+    })
+}
+
+fn ours(level: &Level) -> String {
+    format!("{} ({:.4})", level.n_triangles, level.measured)
+}
+
+fn print_at_triangles(studies: &[Study]) -> Result<(), CompareError> {
+    let mut table = Table::new([
+        "mesh",
+        "triangles",
+        "JADE paper",
+        "best other",
+        "which",
+        "certified",
+        "stated",
+        "certified / best",
+        "joint estimate",
+    ]);
+    let mut ratios = vec![];
+    for (study, row) in rows_of(studies, &AT_TRIANGLES, |row: &AtTriangles| row.subject) {
+        let n_triangles = row.n_triangles as usize;
+        let certified = study.level(study.certified.lod.at_triangles(n_triangles))?;
+        let joint = study.level(study.joint.lod.at_triangles(n_triangles))?;
+        let (which, best) = row.best();
+        ratios.push(certified.measured / best);
+        let jade = row.errors[0];
+        table.push([
+            study.subject.name().to_owned(),
+            n_triangles.to_string(),
+            if jade.is_nan() { "-".to_owned() } else { jade.to_string() },
+            best.to_string(),
+            which.to_owned(),
+            format!("{:.4}", certified.measured),
+            format!("{:.4}", certified.stated),
+            format!("{:.3}", certified.measured / best),
+            format!("{:.4}", joint.measured),
+        ]);
+    }
+    println!("{table}");
+    println!("certified / best, geometric mean: {:.3}", geometric_mean(&ratios));
+    Ok(())
+}

@@ -1,0 +1,71 @@
+//! From a mesh to all its levels, in memory.
+
+use crate::CompareError;
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{BuildOptions, Lod, TriangleMesh};
+use std::io::Cursor;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+
+/// Which steps of the history become levels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeptLevels {
+    /// As many as a file keeps by default.
+    Usual,
+    /// Every step, for the finest choice of triangle counts.
+    All,
+}
+
+/// All levels of a mesh, and what they cost.
+#[derive(Debug)]
+pub struct Build {
+    /// The levels.
+    pub lod: Lod,
+    /// Seconds that the decimation took, without reading and storing.
+    pub seconds: f64,
+}
+
+/// The triangles of a mesh file, without attributes.
+///
+/// # Errors
+///
+/// [`CompareError::Mesh`].
+pub fn load(path: &Path) -> Result<TriangleMesh, CompareError> {
+    let (mesh, _) = nephrite_formats::read_mesh(path)?;
+    Ok(TriangleMesh { attributes: vec![], ..mesh })
+}
+
+/// Simplifies a mesh to the end, on the current rayon pool.
+///
+/// # Errors
+///
+/// [`CompareError`] where the engine refuses the mesh.
+pub fn build_lod(
+    mesh: &TriangleMesh,
+    options: &BuildOptions,
+    kept: KeptLevels,
+) -> Result<Build, CompareError> {
+    let start = Instant::now();
+    let build = nephrite::build(mesh, options, &|_| ControlFlow::Continue(()))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let levels = match kept {
+        KeptLevels::Usual => None,
+        KeptLevels::All => Some(u32::MAX),
+    };
+    let mut file = Cursor::new(vec![]);
+    write_to(&mut file, &build.mesh, &build.history, &Provenance::default(), &StoreOptions { levels })?;
+    Ok(Build { lod: Lod::from_bytes(file.get_ref())?, seconds })
+}
+
+/// Levels whose triangle counts are evenly apart in the logarithm, at most `n`, each once, finest first: the last is the
+/// coarsest, the first has already lost triangles.
+pub fn spread_levels(lod: &Lod, n: u32) -> Vec<u32> {
+    let [finest, coarsest] =
+        [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_triangles().max(1) as f64);
+    let wanted = (1..=n).map(|i| finest * (coarsest / finest).powf(f64::from(i) / f64::from(n)));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two counts")]
+    let mut levels: Vec<u32> = wanted.map(|n| lod.at_triangles(n.round() as usize).level()).collect();
+    levels.dedup();
+    levels
+}

@@ -1,0 +1,16 @@
+//! nephrite beside other systems, as programs that anyone can run again.
+//!
+//! * `levels_check`: is the stated error of a level ever exceeded, and how close is it?
+//! * `tables`: triangles at a given error and error at a given triangle count, beside published figures.
+//!
+//! This crate is a workspace of its own: building or testing the project builds none of it.
+
+pub mod anchors;
+mod error;
+mod every_level;
+pub mod statistics;
+mod table;
+
+pub use error::CompareError;
+pub use every_level::{Build, KeptLevels, build_lod, load, spread_levels};
+pub use table::Table;
