@@ -85,6 +85,16 @@ fn extract_takes_each_selector() {
 }
 
 #[test]
+fn a_budget_that_no_level_meets_is_told() {
+    let (place, build) = built("sphere --triangles 320");
+    let run = place.run("extract out.neph --triangles 1 -o least.ply");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("coarsest") && run.stderr.lines().count() == 1, "{}", run.stderr);
+    let (mesh, _) = nephrite_formats::read_mesh(place.path("least.ply")).unwrap();
+    assert_eq!(mesh.triangles.len(), index(&build, "coarsest_triangles"));
+}
+
+#[test]
 fn extracted_meshes_have_the_counts_that_were_reported() {
     let (place, _) = built("torus --segments 40 --sides 20");
     for extension in ["ply", "obj", "stl", "off", "glb"] {

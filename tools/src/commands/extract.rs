@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::failure::Failure;
 use crate::length::Length;
-use crate::report::Report;
+use crate::report::{self, Report};
 use crate::{figures, files, interrupt};
 
 /// Write one level of detail as a mesh.
@@ -47,10 +47,21 @@ impl Selector {
     /// The cut that the selector asks for.
     fn cut<'a>(&self, file: &Path, lod: &'a Lod) -> Result<Cut<'a>, Failure> {
         if let Some(error) = self.error {
-            return Ok(lod.at_error(error.in_mesh_units(lod.bounding_diagonal())));
+            let error = error.in_mesh_units(lod.bounding_diagonal());
+            let cut = lod.at_error(error);
+            if cut.error() > error {
+                let found = figures::significant(cut.error());
+                report::note(&format!("{}: the finest level has error {found} already", file.display()));
+            }
+            return Ok(cut);
         }
         if let Some(n_triangles) = self.triangles {
-            return Ok(lod.at_triangles(n_triangles as usize));
+            let cut = lod.at_triangles(n_triangles as usize);
+            if cut.n_triangles() > n_triangles as usize {
+                let found = figures::count(cut.n_triangles());
+                report::note(&format!("{}: the coarsest level has {found} triangles still", file.display()));
+            }
+            return Ok(cut);
         }
         let level = self.level.unwrap_or(0);
         if level < lod.n_levels() {
