@@ -1,6 +1,7 @@
 //! Polygons, concave ones too, cut into triangles over their own corners.
 //!
-//! A fan is right for convex polygons only. The ear-cutting libraries made for drawing drop corners on straight edges, which
+//! A convex polygon becomes a fan from its first corner, as in nearly every other reader: where it is not flat the choice
+//! of diagonals is part of the surface. For any other polygon a fan is wrong. The ear-cutting libraries made for drawing drop corners on straight edges, which
 //! tears a surface apart where a neighbour uses such a corner; here a polygon of n corners always gives n - 2 triangles that
 //! use every corner. Following G. H. Meisters, "Polygons have ears" (American Mathematical Monthly 82, 1975): cut off a
 //! convex corner whose triangle holds no other corner, until a triangle is left.
@@ -97,12 +98,13 @@ impl Triangulator {
         self.budget = self.budget.saturating_add(LOOKS_PER_CORNER * n_corners);
     }
 
-    /// Walks around the ring cutting ears, and fans what has none.
+    /// Walks around the ring cutting ears, and fans what has none, or needs none because it is convex.
     fn cut_ears(&mut self, triangles: &mut Vec<[usize; 3]>) -> bool {
         let mut n_left = self.flat.len();
         let mut n_since_cut = 0;
         let mut corner = 0;
-        while n_left > 3 && n_since_cut < n_left && self.budget > 0 {
+        let is_convex = self.blockers[0].is_empty();
+        while !is_convex && n_left > 3 && n_since_cut < n_left && self.budget > 0 {
             let [before, after] = [self.previous[corner], self.next[corner]];
             if self.is_ear([before, corner, after]) {
                 triangles.push([before, corner, after]);
@@ -168,7 +170,7 @@ impl Triangulator {
     }
 }
 
-/// The two triangles of a quadrilateral: along the only diagonal inside it, or else along the shorter one.
+/// The two triangles of a quadrilateral: along the only diagonal inside it, or else from the first corner.
 fn split_quad(corners: &[[f32; 3]]) -> ([[usize; 3]; 2], bool) {
     const ALONG_02: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
     const ALONG_13: [[usize; 3]; 2] = [[1, 2, 3], [1, 3, 0]];
@@ -176,16 +178,11 @@ fn split_quad(corners: &[[f32; 3]]) -> ([[usize; 3]; 2], bool) {
     let agreement =
         |[first, second]: [[usize; 3]; 2]| dot(cross_of(first.map(point)), cross_of(second.map(point)));
     let (agreement_02, agreement_13) = (agreement(ALONG_02), agreement(ALONG_13));
-    let length_sq = |a: usize, b: usize| {
-        let edge = subtract(point(a), point(b));
-        dot(edge, edge)
-    };
     let takes_13 = match (agreement_02 > 0.0, agreement_13 > 0.0) {
-        (true, false) => false,
+        (true, _) => false,
         (false, true) => true,
         // Flat triangles (agreement zero) are better than folded ones.
-        (false, false) if agreement_02 != agreement_13 => agreement_13 > agreement_02,
-        _ => length_sq(1, 3) < length_sq(0, 2),
+        (false, false) => agreement_13 > agreement_02,
     };
     if takes_13 { (ALONG_13, agreement_13 >= 0.0) } else { (ALONG_02, agreement_02 >= 0.0) }
 }
@@ -265,11 +262,11 @@ mod tests {
     }
 
     #[test]
-    fn a_convex_quadrilateral_is_split_along_the_shorter_diagonal() {
+    fn convex_polygons_are_fans_from_the_first_corner() {
         let kite = [[0.0, 0.0], [1.0, -0.5], [4.0, 0.0], [1.0, 0.5]];
-        assert_eq!(triangulate(&kite).0, [[1, 2, 3], [1, 3, 0]]);
-        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        assert_eq!(triangulate(&square).0, [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(triangulate(&kite).0, [[0, 1, 2], [0, 2, 3]]);
+        let pentagon = [[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [1.0, 3.0], [-1.0, 1.0]];
+        assert_eq!(triangulate(&pentagon).0, [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
     }
 
     #[test]

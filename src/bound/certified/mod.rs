@@ -24,7 +24,7 @@ mod transfer;
 use super::Replacement;
 use super::covered::Covered;
 use super::removed::RemovedVertices;
-use crate::geometry::vector::widen;
+use crate::geometry::vector::{length, max, min, widen};
 use crate::mesh::{Hole, Surface};
 use chains::Chains;
 use source::SourceEdges;
@@ -35,9 +35,10 @@ pub use transfer::{Change, Transfer};
 const NONE: u32 = u32::MAX;
 const NOT_ON_RIM: u8 = u8::MAX;
 
-/// Added to every bound, as a multiple of the largest coordinate. The rounding errors of a displacement, a few dozen
-/// operations in `f64` on exact `f32`, are a millionth of it; the rest covers whoever checks the bound in `f32`.
-const SLACK: f64 = f32::EPSILON as f64;
+/// Added to every bound, as a multiple of the extent of mesh and origin. The rounding errors of a
+/// displacement, a few dozen operations in `f64` on exact `f32`, are a millionth of it; the rest covers whoever checks the
+/// bound in `f32`, as MeshLab's Metro does in part: it finds up to 4e-7 of the diagonal between a mesh and itself.
+const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The map from the input onto the current mesh.
 #[derive(Clone, Debug)]
@@ -60,8 +61,10 @@ impl Certified {
     pub fn new(surface: &Surface, rounding: f64) -> Self {
         let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
         let source = SourceEdges::new(n_vertices, surface.iter().map(|(_, corners)| corners));
-        let largest =
-            surface.positions().iter().flat_map(|&p| widen(p)).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let points = surface.positions().iter().map(|&p| widen(p));
+        let (low, high) = points.fold(([0.0; 3], [0.0; 3]), |(low, high), p| (min(low, p), max(high, p)));
+        // The box about mesh and origin: no less than the diagonal of the mesh, or than any coordinate.
+        let extent = length(low) + length(high);
         Self {
             chains: Chains::new(source.n_edges(), n_slots),
             removed: RemovedVertices::new(n_slots, n_vertices),
@@ -70,7 +73,7 @@ impl Certified {
             set_in_batch: vec![0; source.n_edges()],
             batch: 0,
             source,
-            slack: SLACK * largest + rounding,
+            slack: SLACK * extent + rounding,
         }
     }
 
