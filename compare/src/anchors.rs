@@ -142,3 +142,15 @@ pub const AT_TRIANGLES: [AtTriangles; 15] = [
     at_triangles(Subject::Cosine, 1026, [1.221, 0.0757, 0.218, NO, NO, NO, NO, 0.280]),
     at_triangles(Subject::Cosine, 412, [0.535, 0.218, NO, NO, NO, NO, NO, 0.411]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_of_a_row_ignores_what_was_not_measured() {
+        let best = |row: usize| AT_TRIANGLES[row].best();
+        assert_eq!(best(0), ("JADE paper", 0.037));
+        assert_eq!(best(11), ("vtkQuadricDecimation", 0.0059));
+    }
+}

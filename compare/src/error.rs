@@ -32,4 +32,28 @@ pub enum CompareError {
     /// The system refused.
     #[error(transparent)]
     Io(#[from] io::Error),
+    /// A pool of threads could not be started.
+    #[error(transparent)]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// Two ways to the same answer gave different ones.
+    #[error("{way} gave {found} {what}, expected {expected}")]
+    Disagrees {
+        /// Which way.
+        way: &'static str,
+        /// What was counted.
+        what: &'static str,
+        /// What it gave.
+        found: u64,
+        /// What the other one gave.
+        expected: u64,
+    },
+    /// meshoptimizer refused a mesh.
+    #[error(transparent)]
+    Meshoptimizer(#[from] meshopt::Error),
+    /// A process that was started for a measurement failed.
+    #[error("measuring in a process of its own failed: {what}")]
+    Process {
+        /// What it said.
+        what: String,
+    },
 }

@@ -69,3 +69,19 @@ pub fn spread_levels(lod: &Lod, n: u32) -> Vec<u32> {
     levels.dedup();
     levels
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nephrite::generate;
+
+    #[test]
+    fn levels_are_spread_from_behind_the_input_to_the_coarsest() -> Result<(), CompareError> {
+        let build = build_lod(&generate::sphere(8), &BuildOptions::default(), KeptLevels::All)?;
+        let levels = spread_levels(&build.lod, 8);
+        assert_eq!(levels.len(), 8);
+        assert!(levels[0] > 0 && levels.is_sorted());
+        assert_eq!(levels.last(), Some(&(build.lod.n_levels() - 1)));
+        Ok(())
+    }
+}

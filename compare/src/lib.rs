@@ -2,6 +2,8 @@
 //!
 //! * `levels_check`: is the stated error of a level ever exceeded, and how close is it?
 //! * `tables`: triangles at a given error and error at a given triangle count, beside published figures.
+//! * `speed`: the whole history beside a chain of halvings by meshoptimizer, and the memory both take.
+//! * `intervals`: extraction beside general interval trees over the same lifetimes.
 //!
 //! This crate is a workspace of its own: building or testing the project builds none of it.
 
@@ -9,6 +11,7 @@ pub mod anchors;
 mod error;
 mod every_level;
 pub mod statistics;
+pub mod stopwatch;
 mod table;
 
 pub use error::CompareError;

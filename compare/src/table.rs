@@ -40,3 +40,15 @@ impl<const COLUMNS: usize> fmt::Display for Table<COLUMNS> {
         self.rows.iter().try_for_each(|row| line(&row.each_ref().map(String::as_str)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_as_wide_as_their_widest_cell() {
+        let mut table = Table::new(["a", "heading"]);
+        table.push(["wide".to_owned(), "1".to_owned()]);
+        assert_eq!(table.to_string(), "| a    | heading |\n| ---- | ------- |\n| wide | 1       |\n");
+    }
+}
