@@ -34,7 +34,7 @@ pub struct Decimation {
 const CHUNK: usize = 32;
 
 /// Removals that are planned before the first of them is carried out.
-const BATCH: usize = 4096;
+const BATCH: usize = 512;
 
 /// Buffers for judging, one set per thread of the pool and one for the caller.
 #[derive(Default)]
