@@ -18,6 +18,8 @@
 
 pub mod chains;
 pub mod dual_tree;
+mod labels;
+mod removal;
 pub mod source;
 mod transfer;
 
@@ -27,8 +29,9 @@ use super::removed::RemovedVertices;
 use crate::geometry::vector::{length, max, min, widen};
 use crate::mesh::{Hole, Surface};
 use chains::Chains;
+use removal::Removal;
 use source::SourceEdges;
-use transfer::{Assignment, Removal};
+use transfer::Assignment;
 pub use transfer::{Change, Transfer};
 
 /// No slot, or no corner.

@@ -1,12 +1,13 @@
 //! Moving the map from the star of a vertex to the filling of its hole.
 
+use super::NOT_ON_RIM;
 use super::chains::Portion;
 use super::dual_tree::{Crossing, DualTree};
-use super::{Certified, NONE, NOT_ON_RIM};
+use super::labels::Labels;
+use super::removal::Removal;
 use crate::bound::Replacement;
-use crate::bound::covered::{Covered, Over};
-use crate::geometry::distance::{Segment, point_segment_distance_sq, point_triangle_distance_sq};
-use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
+use crate::geometry::distance::{Segment, point_segment_distance_sq};
+use crate::geometry::vector::{add_scaled, dot, length_sq, sub};
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
@@ -40,36 +41,6 @@ pub(super) struct Assignment {
     pub(super) rim_corner: u8,
 }
 
-/// The filling triangle of each source vertex that is mapped into the hole at hand.
-#[derive(Clone, Debug, Default)]
-struct Labels {
-    stamped: Vec<u32>,
-    stamp: u32,
-}
-
-/// Bits of a stamped label that hold the label; a filling has fewer than 64 triangles.
-const LABEL_BITS: u32 = 6;
-
-impl Labels {
-    fn start(&mut self, n_vertices: usize) {
-        self.stamp += 1;
-        if self.stamped.len() != n_vertices || self.stamp >> (32 - LABEL_BITS) != 0 {
-            self.stamped.clear();
-            self.stamped.resize(n_vertices, 0);
-            self.stamp = 1;
-        }
-    }
-
-    fn set(&mut self, v: u32, label: u8) {
-        self.stamped[v as usize] = self.stamp << LABEL_BITS | u32::from(label);
-    }
-
-    fn get(&self, v: u32) -> Option<u8> {
-        let stamped = self.stamped[v as usize];
-        (stamped >> LABEL_BITS == self.stamp).then_some((stamped & ((1 << LABEL_BITS) - 1)) as u8)
-    }
-}
-
 /// One end of a part of a source edge that lies in the hole.
 #[derive(Clone, Copy, Debug)]
 enum End {
@@ -77,14 +48,6 @@ enum End {
     In(u8),
     /// At this ring vertex, which every triangle around it may claim.
     At(u8),
-}
-
-/// A hole, its filling, and what the map is before the removal.
-#[derive(Clone, Copy)]
-pub(super) struct Removal<'a> {
-    pub(super) certified: &'a Certified,
-    pub(super) replacement: Replacement<'a>,
-    pub(super) covered: &'a Covered,
 }
 
 impl Transfer {
@@ -260,151 +223,6 @@ impl Transfer {
         }
         debug_assert!(usize::from(first) < removal.replacement.filling.triangles.len());
         first
-    }
-}
-
-impl Removal<'_> {
-    /// Index in the star of the triangle in `slot`.
-    fn star_index(&self, slot: u32) -> Option<usize> {
-        self.replacement.hole.slots.iter().position(|&s| s == slot)
-    }
-
-    #[expect(clippy::cast_possible_truncation, reason = "ring indices stay below MAX_VALENCE + 1")]
-    fn ring_index(&self, v: u32) -> u8 {
-        let found = self.replacement.hole.ring.iter().position(|&r| r == v);
-        debug_assert!(found.is_some(), "a source edge that ends in the hole ends at its ring");
-        found.unwrap_or_default() as u8
-    }
-
-    /// The slot of an edge that is all in one triangle. Between two vertices that are alive it is a mesh edge, and in
-    /// the hole only when it ends at the removed vertex.
-    fn only_slot(&self, low: u32, high: u32) -> u32 {
-        match [low, high].map(|v| self.certified.slot_of[v as usize]) {
-            [NONE, NONE] => self.replacement.hole.slots[0],
-            [NONE, slot] | [slot, _] => slot,
-        }
-    }
-
-    /// A triangle near the covered vertex at index `at`, and its squared distance: the one that the vertex lies over
-    /// where that is no farther than `enough_sq`, the nearest one otherwise.
-    fn near(&self, at: usize, p: Vector, enough_sq: f64) -> (u8, f64) {
-        let is_over = |&(_, &triangle): &(u8, &[u8; 3])| self.covered.is_over(at, Over::new(triangle));
-        let candidates =
-            if self.covered.has_sides() { self.replacement.filling.triangles.as_slice() } else { &[] };
-        if let Some((label, _)) = (0..).zip(candidates).find(is_over) {
-            let distance_sq = point_triangle_distance_sq(
-                p,
-                &self.replacement.filling.triangle(self.replacement.hole, label.into()),
-            );
-            if distance_sq <= enough_sq {
-                return (label, distance_sq);
-            }
-        }
-        self.nearest(p)
-    }
-
-    /// Whether the filling's triangle `label` has the corner `v`.
-    fn has_corner(&self, label: u8, v: u32) -> bool {
-        self.replacement.filling.corners(self.replacement.hole, label.into()).contains(&v)
-    }
-
-    fn nearest(&self, p: Vector) -> (u8, f64) {
-        (0..)
-            .zip(0..self.replacement.filling.triangles.len())
-            .map(|(label, i)| {
-                (
-                    label,
-                    point_triangle_distance_sq(
-                        p,
-                        &self.replacement.filling.triangle(self.replacement.hole, i),
-                    ),
-                )
-            })
-            .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
-    }
-
-    /// End points of the ring edge after ring vertex `i`; for the last one of a chain, of the new boundary edge.
-    fn ring_edge(&self, i: usize) -> Segment {
-        [self.replacement.hole.points[i], self.replacement.hole.points[self.replacement.hole.next(i)]]
-    }
-
-    /// For a source vertex on the boundary: the ring edge that its boundary edge is, or becomes.
-    fn rim_edge(&self, v: u32) -> Option<usize> {
-        let hole = self.replacement.hole;
-        let new_edge = hole.n_ring() - 1;
-        if v == hole.removed {
-            return (!hole.closed).then_some(new_edge);
-        }
-        let corner = self.certified.rim_corner[v as usize];
-        if corner == NOT_ON_RIM {
-            return None;
-        }
-        let slot = self.certified.slot_of[v as usize];
-        let corners = self.replacement.surface.corners(slot);
-        let (from, to) = (corners[usize::from(corner)], corners[(usize::from(corner) + 1) % 3]);
-        let is_replaced = from == hole.removed || to == hole.removed;
-        Some(if is_replaced { new_edge } else { self.star_index(slot).unwrap_or_default() })
-    }
-
-    /// The corner of its new triangle at which the boundary edge of `v` starts.
-    fn new_rim(&self, v: u32) -> Option<u8> {
-        let from = self.rim_edge(v)?;
-        let to = self.replacement.hole.next(from);
-        let runs = |&[a, b, c]: &[u8; 3]| {
-            (0..)
-                .zip([[a, b], [b, c], [c, a]])
-                .find(|&(_, [i, j])| usize::from(i) == from && usize::from(j) == to)
-        };
-        self.replacement.filling.triangles.iter().find_map(runs).map(|(corner, _)| corner)
-    }
-
-    /// Takes out what a chain does not need: going over an edge and straight back, and turning about a vertex that is
-    /// its own image.
-    fn shorten(&self, edge: u32, portions: &mut Vec<Portion>) {
-        let [low, high] = self.certified.source.ends(edge);
-        let mut kept = 0;
-        for at in 0..portions.len() {
-            let portion = portions[at];
-            if kept >= 2 && portions[kept - 2].slot == portion.slot {
-                kept -= 1;
-                portions[kept - 1].end = portion.end;
-            } else if kept >= 1 && portions[kept - 1].slot == portion.slot {
-                portions[kept - 1].end = portion.end;
-            } else if kept == 1
-                && self.stays(low)
-                && self.touches(portions[0].slot, low)
-                && self.touches(portion.slot, low)
-            {
-                portions[0] = portion;
-            } else {
-                portions[kept] = portion;
-                kept += 1;
-            }
-        }
-        while kept >= 2
-            && self.stays(high)
-            && self.touches(portions[kept - 1].slot, high)
-            && self.touches(portions[kept - 2].slot, high)
-        {
-            kept -= 1;
-            portions[kept - 1].end = 1.0;
-        }
-        portions.truncate(kept);
-    }
-
-    fn stays(&self, v: u32) -> bool {
-        v != self.replacement.hole.removed && self.certified.is_alive(v)
-    }
-
-    /// Whether the triangle in `slot`, after the removal, has the corner `v`.
-    fn touches(&self, slot: u32, v: u32) -> bool {
-        match self.star_index(slot) {
-            Some(i) if i < self.replacement.filling.triangles.len() => {
-                self.replacement.filling.corners(self.replacement.hole, i).contains(&v)
-            }
-            Some(_) => false,
-            None => self.replacement.surface.corners(slot).contains(&v),
-        }
     }
 }
 

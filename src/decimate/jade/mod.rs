@@ -8,6 +8,7 @@
 
 pub mod candidate;
 pub mod classify;
+pub mod decimation;
 pub mod ears;
 pub mod fit;
 pub mod flip;

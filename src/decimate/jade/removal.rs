@@ -1,7 +1,7 @@
 //! One removal: planned in parallel with others, carried out in turn.
 
 use super::candidate::{Scratch, Situation, Verdict, judge};
-use super::rounds::Decimation;
+use super::decimation::Decimation;
 use crate::bound::{Change, GlobalError, Limits, Replacement};
 use crate::mesh::{Filling, Hole, Seams, Surface};
 

@@ -1,60 +1,19 @@
 //! The driver: iterations under rising limits, and in each of them rounds over an independent set.
 
-use super::candidate::{Scratch, Situation, Verdict, judge};
+use super::candidate::{Verdict, judge};
+use super::decimation::Decimation;
 use super::removal::{Plan, plan};
 use super::thresholds::Thresholds;
+use crate::bound::Limits;
 use crate::bound::accumulated::round_up;
-use crate::bound::{GlobalError, Limits};
-use crate::history::Recorder;
-use crate::mesh::{Seams, Surface};
+use crate::mesh::Surface;
 use rayon::prelude::*;
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
-/// What a decimation works on, and what it has done so far.
-pub struct Decimation {
-    /// The current mesh; its vertices are points.
-    pub surface: Surface,
-    /// Its seams, if it has any.
-    pub seams: Option<Seams>,
-    /// Its errors.
-    pub error: GlobalError,
-    /// The history so far.
-    pub recorder: Recorder,
-    /// Cosine of the feature angle.
-    pub cos_feature_angle: f64,
-    /// See [`super::JadeOptions::aspect_loss`].
-    pub aspect_loss: f64,
-    /// See [`super::JadeOptions::c2`].
-    pub c2: f64,
-    /// Buffers of the threads.
-    pub workers: Workers,
-}
 
 /// Candidates that one thread judges at a time.
 const CHUNK: usize = 32;
 
 /// Removals that are planned before the first of them is carried out.
 const BATCH: usize = 512;
-
-/// Buffers for judging, one set per thread of the pool and one for the caller.
-#[derive(Default)]
-pub struct Workers {
-    scratches: Vec<Mutex<Scratch>>,
-}
-
-impl Workers {
-    /// Buffers for the current rayon pool.
-    pub fn new() -> Self {
-        Self { scratches: (0..=rayon::current_num_threads()).map(|_| Mutex::default()).collect() }
-    }
-
-    /// This thread's buffers. A thread never asks for them twice at once, so it never waits.
-    fn scratch(&self) -> MutexGuard<'_, Scratch> {
-        let last = self.scratches.len() - 1;
-        let own = rayon::current_thread_index().unwrap_or(last).min(last);
-        self.scratches[own].lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
 
 /// What is known of each vertex: the local limit below which it can certainly not be removed.
 struct Candidates {
@@ -127,19 +86,6 @@ impl Candidates {
     fn close(&mut self, v: u32) {
         self.needed[v as usize] = f32::INFINITY;
         self.removable[v as usize] = UNKNOWN;
-    }
-}
-
-impl Decimation {
-    /// What candidates are judged by.
-    pub(super) fn situation(&self) -> Situation<'_> {
-        Situation {
-            surface: &self.surface,
-            seams: self.seams.as_ref(),
-            error: &self.error,
-            cos_feature_angle: self.cos_feature_angle,
-            aspect_loss: self.aspect_loss,
-        }
     }
 }
 

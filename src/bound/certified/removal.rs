@@ -1,0 +1,161 @@
+//! What a removal means for the map: where its vertices and edges lie in the star and in the filling.
+
+use super::chains::Portion;
+use super::{Certified, NONE, NOT_ON_RIM};
+use crate::bound::Replacement;
+use crate::bound::covered::{Covered, Over};
+use crate::geometry::distance::{Segment, point_triangle_distance_sq};
+use crate::geometry::vector::Vector;
+
+/// A hole, its filling, and what the map is before the removal.
+#[derive(Clone, Copy)]
+pub(super) struct Removal<'a> {
+    pub(super) certified: &'a Certified,
+    pub(super) replacement: Replacement<'a>,
+    pub(super) covered: &'a Covered,
+}
+
+impl Removal<'_> {
+    /// Index in the star of the triangle in `slot`.
+    pub(super) fn star_index(&self, slot: u32) -> Option<usize> {
+        self.replacement.hole.slots.iter().position(|&s| s == slot)
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "ring indices stay below MAX_VALENCE + 1")]
+    pub(super) fn ring_index(&self, v: u32) -> u8 {
+        let found = self.replacement.hole.ring.iter().position(|&r| r == v);
+        debug_assert!(found.is_some(), "a source edge that ends in the hole ends at its ring");
+        found.unwrap_or_default() as u8
+    }
+
+    /// The slot of an edge that is all in one triangle. Between two vertices that are alive it is a mesh edge, and in
+    /// the hole only when it ends at the removed vertex.
+    pub(super) fn only_slot(&self, low: u32, high: u32) -> u32 {
+        match [low, high].map(|v| self.certified.slot_of[v as usize]) {
+            [NONE, NONE] => self.replacement.hole.slots[0],
+            [NONE, slot] | [slot, _] => slot,
+        }
+    }
+
+    /// A triangle near the covered vertex at index `at`, and its squared distance: the one that the vertex lies over
+    /// where that is no farther than `enough_sq`, the nearest one otherwise.
+    pub(super) fn near(&self, at: usize, p: Vector, enough_sq: f64) -> (u8, f64) {
+        let is_over = |&(_, &triangle): &(u8, &[u8; 3])| self.covered.is_over(at, Over::new(triangle));
+        let candidates =
+            if self.covered.has_sides() { self.replacement.filling.triangles.as_slice() } else { &[] };
+        if let Some((label, _)) = (0..).zip(candidates).find(is_over) {
+            let distance_sq = point_triangle_distance_sq(
+                p,
+                &self.replacement.filling.triangle(self.replacement.hole, label.into()),
+            );
+            if distance_sq <= enough_sq {
+                return (label, distance_sq);
+            }
+        }
+        self.nearest(p)
+    }
+
+    /// Whether the filling's triangle `label` has the corner `v`.
+    pub(super) fn has_corner(&self, label: u8, v: u32) -> bool {
+        self.replacement.filling.corners(self.replacement.hole, label.into()).contains(&v)
+    }
+
+    pub(super) fn nearest(&self, p: Vector) -> (u8, f64) {
+        (0..)
+            .zip(0..self.replacement.filling.triangles.len())
+            .map(|(label, i)| {
+                (
+                    label,
+                    point_triangle_distance_sq(
+                        p,
+                        &self.replacement.filling.triangle(self.replacement.hole, i),
+                    ),
+                )
+            })
+            .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+    }
+
+    /// End points of the ring edge after ring vertex `i`; for the last one of a chain, of the new boundary edge.
+    pub(super) fn ring_edge(&self, i: usize) -> Segment {
+        [self.replacement.hole.points[i], self.replacement.hole.points[self.replacement.hole.next(i)]]
+    }
+
+    /// For a source vertex on the boundary: the ring edge that its boundary edge is, or becomes.
+    pub(super) fn rim_edge(&self, v: u32) -> Option<usize> {
+        let hole = self.replacement.hole;
+        let new_edge = hole.n_ring() - 1;
+        if v == hole.removed {
+            return (!hole.closed).then_some(new_edge);
+        }
+        let corner = self.certified.rim_corner[v as usize];
+        if corner == NOT_ON_RIM {
+            return None;
+        }
+        let slot = self.certified.slot_of[v as usize];
+        let corners = self.replacement.surface.corners(slot);
+        let (from, to) = (corners[usize::from(corner)], corners[(usize::from(corner) + 1) % 3]);
+        let is_replaced = from == hole.removed || to == hole.removed;
+        Some(if is_replaced { new_edge } else { self.star_index(slot).unwrap_or_default() })
+    }
+
+    /// The corner of its new triangle at which the boundary edge of `v` starts.
+    pub(super) fn new_rim(&self, v: u32) -> Option<u8> {
+        let from = self.rim_edge(v)?;
+        let to = self.replacement.hole.next(from);
+        let runs = |&[a, b, c]: &[u8; 3]| {
+            (0..)
+                .zip([[a, b], [b, c], [c, a]])
+                .find(|&(_, [i, j])| usize::from(i) == from && usize::from(j) == to)
+        };
+        self.replacement.filling.triangles.iter().find_map(runs).map(|(corner, _)| corner)
+    }
+
+    /// Takes out what a chain does not need: going over an edge and straight back, and turning about a vertex that is
+    /// its own image.
+    pub(super) fn shorten(&self, edge: u32, portions: &mut Vec<Portion>) {
+        let [low, high] = self.certified.source.ends(edge);
+        let mut kept = 0;
+        for at in 0..portions.len() {
+            let portion = portions[at];
+            if kept >= 2 && portions[kept - 2].slot == portion.slot {
+                kept -= 1;
+                portions[kept - 1].end = portion.end;
+            } else if kept >= 1 && portions[kept - 1].slot == portion.slot {
+                portions[kept - 1].end = portion.end;
+            } else if kept == 1
+                && self.stays(low)
+                && self.touches(portions[0].slot, low)
+                && self.touches(portion.slot, low)
+            {
+                portions[0] = portion;
+            } else {
+                portions[kept] = portion;
+                kept += 1;
+            }
+        }
+        while kept >= 2
+            && self.stays(high)
+            && self.touches(portions[kept - 1].slot, high)
+            && self.touches(portions[kept - 2].slot, high)
+        {
+            kept -= 1;
+            portions[kept - 1].end = 1.0;
+        }
+        portions.truncate(kept);
+    }
+
+    pub(super) fn stays(&self, v: u32) -> bool {
+        v != self.replacement.hole.removed && self.certified.is_alive(v)
+    }
+
+    /// Whether the triangle in `slot`, after the removal, has the corner `v`.
+    pub(super) fn touches(&self, slot: u32, v: u32) -> bool {
+        match self.star_index(slot) {
+            Some(i) if i < self.replacement.filling.triangles.len() => {
+                self.replacement.filling.corners(self.replacement.hole, i).contains(&v)
+            }
+            Some(_) => false,
+            None => self.replacement.surface.corners(slot).contains(&v),
+        }
+    }
+}

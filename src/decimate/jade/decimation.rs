@@ -1,0 +1,60 @@
+//! The state of a decimation between two removals.
+
+use super::candidate::{Scratch, Situation};
+use crate::bound::GlobalError;
+use crate::history::Recorder;
+use crate::mesh::{Seams, Surface};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a decimation works on, and what it has done so far.
+pub struct Decimation {
+    /// The current mesh; its vertices are points.
+    pub surface: Surface,
+    /// Its seams, if it has any.
+    pub seams: Option<Seams>,
+    /// Its errors.
+    pub error: GlobalError,
+    /// The history so far.
+    pub recorder: Recorder,
+    /// Cosine of the feature angle.
+    pub cos_feature_angle: f64,
+    /// See [`super::JadeOptions::aspect_loss`].
+    pub aspect_loss: f64,
+    /// See [`super::JadeOptions::c2`].
+    pub c2: f64,
+    /// Buffers of the threads.
+    pub workers: Workers,
+}
+
+impl Decimation {
+    /// What candidates are judged by.
+    pub(super) fn situation(&self) -> Situation<'_> {
+        Situation {
+            surface: &self.surface,
+            seams: self.seams.as_ref(),
+            error: &self.error,
+            cos_feature_angle: self.cos_feature_angle,
+            aspect_loss: self.aspect_loss,
+        }
+    }
+}
+
+/// Buffers for judging, one set per thread of the pool and one for the caller.
+#[derive(Default)]
+pub struct Workers {
+    scratches: Vec<Mutex<Scratch>>,
+}
+
+impl Workers {
+    /// Buffers for the current rayon pool.
+    pub fn new() -> Self {
+        Self { scratches: (0..=rayon::current_num_threads()).map(|_| Mutex::default()).collect() }
+    }
+
+    /// This thread's buffers. A thread never asks for them twice at once, so it never waits.
+    pub(super) fn scratch(&self) -> MutexGuard<'_, Scratch> {
+        let last = self.scratches.len() - 1;
+        let own = rayon::current_thread_index().unwrap_or(last).min(last);
+        self.scratches[own].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
