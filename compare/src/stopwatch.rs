@@ -26,9 +26,12 @@ pub fn in_turn(n_samples: usize, shortest_sample: Duration, works: &mut [&mut dy
     samples.iter().map(|samples| median(samples)).collect()
 }
 
-/// Calls that fill the shortest sample.
+/// Calls that fill the shortest sample; 1, without a trial, where any sample is long enough.
 fn n_repeats(work: &mut dyn FnMut(), shortest_sample: Duration) -> u32 {
     let mut n_calls = 1;
+    if shortest_sample.is_zero() {
+        return n_calls;
+    }
     loop {
         let seconds = f64::from(n_calls) * seconds_per_call(work, n_calls);
         if seconds >= shortest_sample.as_secs_f64() || n_calls >= 1 << 20 {
