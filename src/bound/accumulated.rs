@@ -12,10 +12,11 @@ use crate::mesh::{Hole, Surface};
 const MAX_RANDOM_SAMPLES: usize = 8;
 
 /// One random sample for as many mean input triangles in area.
-const AREAS_PER_SAMPLE: f64 = 16.0;
+const AREAS_PER_SAMPLE: f64 = 128.0;
 
 /// Places samples on a triangle: its barycentre, the points halfway from there to each corner, and one random point in
-/// its interior for every sixteen mean input triangles in area, at most eight.
+/// its interior for every 128 mean input triangles in area, at most eight: the estimate grows with the samples, and with as
+/// many as one for sixteen the bunny keeps an eighth more triangles at 1 %.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     mean_area: f64,
