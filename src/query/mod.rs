@@ -5,10 +5,16 @@
 //! error or count table and one look into the interval tree.
 
 mod cut;
+mod delta;
 mod error;
 mod extract;
 mod lod;
+mod picker;
+mod view;
 
 pub use cut::Cut;
+pub use delta::Delta;
 pub use error::QueryError;
 pub use lod::{CurvePoint, Lod};
+pub use picker::Picker;
+pub use view::{Projection, View};

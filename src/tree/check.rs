@@ -190,7 +190,7 @@ impl Tree<'_> {
 }
 
 /// Height of a slot that is alive at `level` and stores `stamp`: a death above `level` or a birth at or below it.
-fn height_from_stamp(level: u32, stamp: u32) -> Option<u32> {
+pub(super) fn height_from_stamp(level: u32, stamp: u32) -> Option<u32> {
     let other_end = if stamp > level { stamp - 1 } else { stamp };
     let height = u32::BITS - (level ^ other_end).leading_zeros();
     // A stored birth equal to the level would be a death list of height 0, which does not exist.

@@ -34,11 +34,13 @@
 
 mod build;
 mod check;
+mod difference;
 mod order;
 mod stab;
 
 pub use build::{Layout, TreeError};
 pub use check::TreeFault;
+pub use difference::Difference;
 pub use order::{Group, LayoutOrder, List, n_heights};
 pub use stab::{Run, Runs, Tree};
 

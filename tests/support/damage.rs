@@ -91,8 +91,24 @@ pub fn open_and_use(bytes: &[u8]) -> Outcome {
             Err(_) => assert!(verified.is_err(), "verified, but its levels are damaged"),
         }
     }
+    use_deltas(&lod, n_slots);
     assert_eq!(lod.curve().len(), n_levels as usize);
     let _ = lod.metadata();
     assert!(lod.bounding_diagonal() >= 0.0);
     Outcome::Used(verified)
+}
+
+/// What changes between any two levels is inside the slots.
+fn use_deltas(lod: &Lod, n_slots: usize) {
+    let last = lod.n_levels() - 1;
+    for (from, to) in
+        [(0, 1), (1, 0), (0, last), (last, 0), (last / 2, last / 2 + 1), (last / 3, last), (2, 2)]
+    {
+        let delta = lod.delta(from, to);
+        for runs in [delta.leaving(), delta.entering()] {
+            // At most one run per slot of each height.
+            assert!(runs.clone().count() <= 32 * (n_slots + 1));
+            assert!(runs.into_iter().all(|run| run.range().end <= n_slots));
+        }
+    }
 }

@@ -1,0 +1,66 @@
+//! The change from one level to another.
+
+use super::{Cut, Lod};
+use crate::tree::Difference;
+
+/// The triangles that leave and those that enter on the way from one level to another, for whoever keeps something per
+/// triangle: a stream, a collision structure, an acceleration structure for rays.
+///
+/// Both are runs of slots whose triangles are read from [`Lod::indices`]. Triangles of both levels are in neither. A triangle
+/// that is stored twice may be named here by another slot than by a cut: go by its vertex indices, which are the same.
+///
+/// ```no_run
+/// # let lod = nephrite::Lod::open("bunny.neph")?;
+/// # let (mut add, mut remove) = (|_: &[u32]| (), |_: &[u32]| ());
+/// let delta = lod.delta(7, 8);
+/// for run in delta.leaving() {
+///     lod.indices()[run.index_range(3)].chunks(3).for_each(&mut remove);
+/// }
+/// for run in delta.entering() {
+///     lod.indices()[run.index_range(3)].chunks(3).for_each(&mut add);
+/// }
+/// # Ok::<(), nephrite::store::OpenError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Delta<'a> {
+    from: Cut<'a>,
+    to: Cut<'a>,
+}
+
+impl<'a> Delta<'a> {
+    /// The level before.
+    pub fn from(&self) -> Cut<'a> {
+        self.from
+    }
+
+    /// The level after.
+    pub fn to(&self) -> Cut<'a> {
+        self.to
+    }
+
+    /// Triangles of the level before that the level after does not have.
+    ///
+    /// Between neighbouring levels at most one run per height of the interval tree, and time that does not depend on the
+    /// number of triangles. Between others, time proportional at most to the triangles born or dead between the two.
+    pub fn leaving(&self) -> Difference<'a> {
+        only_at(self.from, self.to)
+    }
+
+    /// Triangles of the level after that the level before does not have. Cost: as [`leaving`](Self::leaving).
+    pub fn entering(&self) -> Difference<'a> {
+        only_at(self.to, self.from)
+    }
+}
+
+fn only_at<'a>(cut: Cut<'a>, other: Cut<'a>) -> Difference<'a> {
+    let file = cut.lod().file();
+    file.tree().only_at(cut.level(), other.level(), file.stamps())
+}
+
+impl Lod {
+    /// The change from level `from` to level `to`, in either direction; the coarsest level where there is no such level.
+    /// Nothing is allocated.
+    pub fn delta(&self, from: u32, to: u32) -> Delta<'_> {
+        Delta { from: self.at_level(from), to: self.at_level(to) }
+    }
+}

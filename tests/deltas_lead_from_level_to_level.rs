@@ -1,0 +1,112 @@
+//! Promise: whatever leaves and enters between two levels turns one cut into the other, forward and back, and takes time
+//! in proportion to the change.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod support;
+
+use nephrite::Lod;
+use nephrite::tree::{Difference, Run};
+use std::collections::HashMap;
+use support::synthetic::{Random, decimate, grid};
+
+/// Which triangles are alive, by their vertex indices; each has a random number, whose sum stands for the set.
+struct Followed<'a> {
+    lod: &'a Lod,
+    ids: HashMap<[u32; 3], usize>,
+    is_alive: Vec<bool>,
+    keys: Vec<u64>,
+    sum: u64,
+}
+
+impl<'a> Followed<'a> {
+    fn new(lod: &'a Lod) -> Self {
+        let mut random = Random(3);
+        let mut ids = HashMap::new();
+        for triangle in lod.indices().chunks_exact(3) {
+            let next_id = ids.len();
+            ids.entry([triangle[0], triangle[1], triangle[2]]).or_insert(next_id);
+        }
+        let keys: Vec<u64> = ids.iter().map(|_| random.next()).collect();
+        Self { lod, is_alive: vec![false; ids.len()], ids, keys, sum: 0 }
+    }
+
+    fn triangles(&self, runs: impl Iterator<Item = Run>) -> Vec<usize> {
+        let slots = runs.flat_map(Run::range);
+        let triangle = |slot: usize| std::array::from_fn(|corner| self.lod.indices()[3 * slot + corner]);
+        slots.map(|slot| self.ids[&triangle(slot)]).collect()
+    }
+
+    fn sum_of(&self, level: u32) -> u64 {
+        let alive = self.triangles(self.lod.at_level(level).runs());
+        alive.iter().fold(0, |sum, &id| sum.wrapping_add(self.keys[id]))
+    }
+
+    /// Takes triangles out or in, each of which must have been the opposite.
+    fn change(&mut self, runs: Difference, enters: bool) -> usize {
+        let changed = self.triangles(runs);
+        for &id in &changed {
+            assert!(self.is_alive[id] != enters, "already so");
+            self.is_alive[id] = enters;
+            let key = self.keys[id];
+            self.sum = if enters { self.sum.wrapping_add(key) } else { self.sum.wrapping_sub(key) };
+        }
+        changed.len()
+    }
+}
+
+/// Goes from level to level along `levels` and compares with the direct cut everywhere.
+fn follow(lod: &Lod, levels: impl Iterator<Item = u32>) {
+    let mut followed = Followed::new(lod);
+    let direct: Vec<u64> = (0..lod.n_levels()).map(|level| followed.sum_of(level)).collect();
+    for id in followed.triangles(lod.at_level(0).runs()) {
+        followed.is_alive[id] = true;
+    }
+    followed.sum = direct[0];
+    let mut before = 0;
+    for level in levels {
+        let delta = lod.delta(before, level);
+        let n_before = delta.from().n_triangles();
+        let n_leaving = followed.change(delta.leaving(), false);
+        let n_entering = followed.change(delta.entering(), true);
+        assert_eq!(followed.sum, direct[level as usize], "from {before} to {level}");
+        assert_eq!(n_before - n_leaving + n_entering, delta.to().n_triangles());
+        before = level;
+    }
+}
+
+fn lod(side: usize, levels: Option<u32>) -> Lod {
+    let mesh = grid(side);
+    let history = decimate(&mesh, usize::MAX, 5);
+    Lod::from_bytes(&support::file_bytes(&mesh, &history, levels)).unwrap()
+}
+
+#[test]
+fn a_hundred_thousand_random_pairs_agree_with_direct_cuts() {
+    for (levels, n_pairs) in [(None, 60_000), (Some(u32::MAX), 30_000), (Some(17), 10_000)] {
+        let lod = lod(24, levels);
+        let mut random = Random(9);
+        let n_levels = lod.n_levels() as usize;
+        follow(&lod, (0..n_pairs).map(|_| u32::try_from(random.below(n_levels)).unwrap()));
+    }
+}
+
+#[test]
+fn the_chain_of_neighbours_leads_down_and_back() {
+    for levels in [None, Some(u32::MAX), Some(2), Some(1)] {
+        let lod = lod(30, levels);
+        follow(&lod, (0..lod.n_levels()).chain((0..lod.n_levels()).rev()));
+    }
+}
+
+#[test]
+fn neighbours_differ_by_a_run_per_height_at_most() {
+    let lod = lod(60, None);
+    let n_heights = nephrite::tree::n_heights(lod.n_levels()) as usize;
+    for level in 1..lod.n_levels() {
+        for delta in [lod.delta(level - 1, level), lod.delta(level, level - 1)] {
+            assert!(delta.leaving().count() <= n_heights && delta.entering().count() <= n_heights);
+        }
+        assert_eq!(lod.delta(level, level).leaving().chain(lod.delta(level, level).entering()).count(), 0);
+    }
+    assert_eq!(lod.delta(u32::MAX, u32::MAX).to().level(), lod.n_levels() - 1);
+}
