@@ -30,6 +30,9 @@ fn extract(criterion: &mut Criterion) {
         group.bench_function(id("memcpy"), |bencher| {
             bencher.iter(|| black_box(&mut indices).copy_from_slice(black_box(source)));
         });
+        group.bench_function(id("ordered copy"), |bencher| {
+            bencher.iter(|| cut.extract_ordered_into(black_box(&mut indices)).unwrap());
+        });
         let step = black_box(history.errors.partition_point(|&error| error <= cut.error()) - 1);
         let step = u32::try_from(step).unwrap();
         let mut gathered = Vec::with_capacity(cut.n_triangles() + 16);

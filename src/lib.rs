@@ -12,6 +12,7 @@ pub mod query;
 pub mod reprove;
 pub mod store;
 pub mod tree;
+pub mod vertex_cache;
 
 pub use build::{
     Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, bounding_diagonal, build,

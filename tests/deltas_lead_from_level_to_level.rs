@@ -5,6 +5,7 @@
 mod support;
 
 use nephrite::Lod;
+use nephrite::store::StoreOptions;
 use nephrite::tree::{Difference, Run};
 use std::collections::HashMap;
 use support::synthetic::{Random, decimate, grid};
@@ -80,6 +81,13 @@ fn lod(side: usize, levels: Option<u32>) -> Lod {
     Lod::from_bytes(&support::file_bytes(&mesh, &history, levels)).unwrap()
 }
 
+fn lod_in_windows(side: usize, window_levels: u32) -> Lod {
+    let mesh = grid(side);
+    let history = decimate(&mesh, usize::MAX, 5);
+    let options = StoreOptions { window_levels: Some(window_levels), ..StoreOptions::default() };
+    Lod::from_bytes(&support::file_bytes_with(&mesh, &history, &options)).unwrap()
+}
+
 #[test]
 fn a_hundred_thousand_random_pairs_agree_with_direct_cuts() {
     for (levels, n_pairs) in [(None, 60_000), (Some(u32::MAX), 30_000), (Some(17), 10_000)] {
@@ -95,6 +103,17 @@ fn the_chain_of_neighbours_leads_down_and_back() {
     for levels in [None, Some(u32::MAX), Some(2), Some(1)] {
         let lod = lod(30, levels);
         follow(&lod, (0..lod.n_levels()).chain((0..lod.n_levels()).rev()));
+    }
+}
+
+#[test]
+fn deltas_lead_across_the_borders_of_windows() {
+    for window_levels in [1, 5, 16] {
+        let lod = lod_in_windows(24, window_levels);
+        follow(&lod, (0..lod.n_levels()).chain((0..lod.n_levels()).rev()));
+        let mut random = Random(10);
+        let n_levels = lod.n_levels() as usize;
+        follow(&lod, (0..5_000).map(|_| u32::try_from(random.below(n_levels)).unwrap()));
     }
 }
 

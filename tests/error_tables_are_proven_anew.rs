@@ -22,7 +22,14 @@ fn file(mesh: &TriangleMesh, history: &History, bound: &str) -> Lod {
         repairs: serde_json::Value::Null,
     };
     let mut bytes = Cursor::new(vec![]);
-    write_to(&mut bytes, mesh, history, &provenance, &StoreOptions { levels: Some(40) }).unwrap();
+    write_to(
+        &mut bytes,
+        mesh,
+        history,
+        &provenance,
+        &StoreOptions { levels: Some(40), ..StoreOptions::default() },
+    )
+    .unwrap();
     Lod::from_bytes(bytes.get_ref()).unwrap()
 }
 

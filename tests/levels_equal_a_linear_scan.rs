@@ -98,7 +98,7 @@ fn tetrahedra_are_stored_like_triangles() {
         history.death.push(death);
     }
     let mut stream = std::io::Cursor::new(Vec::new());
-    let options = StoreOptions { levels: Some(u32::MAX) };
+    let options = StoreOptions { levels: Some(u32::MAX), ..StoreOptions::default() };
     write_to(&mut stream, &mesh, &history, &Provenance::default(), &options).unwrap();
     let lod = Lod::from_bytes(stream.get_ref()).unwrap();
     lod.verify().unwrap();

@@ -26,7 +26,14 @@ pub fn surface(side: usize) -> (nephrite::TriangleMesh, History<3>) {
 pub fn file_bytes(side: usize, levels: Option<u32>) -> Vec<u8> {
     let (mesh, history) = surface(side);
     let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, &mesh, &history, &Provenance::default(), &StoreOptions { levels }).unwrap();
+    write_to(
+        &mut stream,
+        &mesh,
+        &history,
+        &Provenance::default(),
+        &StoreOptions { levels, ..StoreOptions::default() },
+    )
+    .unwrap();
     stream.into_inner()
 }
 

@@ -54,7 +54,7 @@ pub fn build_lod(
         KeptLevels::All => Some(u32::MAX),
     };
     let mut file = Cursor::new(vec![]);
-    write_to(&mut file, &build.mesh, &build.history, &Provenance::default(), &StoreOptions { levels })?;
+    write_to(&mut file, &build.mesh, &build.history, &Provenance::default(), &StoreOptions { levels, ..StoreOptions::default() })?;
     Ok(Build { lod: Lod::from_bytes(file.get_ref())?, seconds })
 }
 

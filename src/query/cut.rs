@@ -106,7 +106,7 @@ impl<'a> Cut<'a> {
         })
     }
 
-    fn check_indices(&self, indices: &[u32]) -> Result<(), QueryError> {
+    pub(super) fn check_indices(&self, indices: &[u32]) -> Result<(), QueryError> {
         let vertex_count = self.vertex_count();
         match indices.iter().find(|&&index| index as usize >= vertex_count) {
             Some(&found) => Err(QueryError::VertexIndex { found, vertex_count }),

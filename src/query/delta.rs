@@ -7,7 +7,9 @@ use crate::tree::Difference;
 /// triangle: a stream, a collision structure, an acceleration structure for rays.
 ///
 /// Both are runs of slots whose triangles are read from [`Lod::indices`]. Triangles of both levels are in neither. A triangle
-/// that is stored twice may be named here by another slot than by a cut: go by its vertex indices, which are the same.
+/// that is stored twice may be named here by another slot than by a cut: go by its vertex indices, which are the same. In a file
+/// written in windows ([`StoreOptions::window_levels`](crate::store::StoreOptions::window_levels)) every triangle leaves at the
+/// border of a window, and those that stay enter again: take out what leaves first.
 ///
 /// ```no_run
 /// # let lod = nephrite::Lod::open("bunny.neph")?;

@@ -1,6 +1,7 @@
 //! Copying a cut out at the speed of memory.
 
 use super::{Cut, QueryError};
+use crate::vertex_cache::{self, FanOrder};
 use rayon::prelude::*;
 
 /// Indices that one task copies: large against the cost of a task, small against a cache.
@@ -30,6 +31,43 @@ impl Cut<'_> {
             let tasks = target.par_chunks_mut(TASK_LEN).zip(source.par_chunks(TASK_LEN));
             tasks.for_each(|(target, source)| target.copy_from_slice(source));
         })
+    }
+
+    /// [`extract_into`](Self::extract_into) in an order that suits the vertex cache of a graphics processor, for callers that
+    /// copy anyway and draw the copy often: some 0.7 misses per triangle, where a cut drawn as runs has 1.1 to 2.
+    ///
+    /// Slower than a plain copy by orders of magnitude, and about 60 bytes per triangle are allocated for as long as it runs.
+    ///
+    /// # Errors
+    ///
+    /// [`QueryError::BufferTooSmall`], [`QueryError::NotTriangles`], and for a damaged file [`QueryError::VertexIndex`].
+    pub fn extract_ordered_into(&self, indices: &mut [u32]) -> Result<usize, QueryError> {
+        if self.lod().n_corners() != 3 {
+            return Err(QueryError::NotTriangles { found: self.lod().n_corners() });
+        }
+        let n_indices = self.extract_into(indices)?;
+        let (triangles, _) = indices[..n_indices].as_chunks_mut::<3>();
+        self.check_indices(triangles.as_flattened())?;
+        // Of valid indices there is no order only where 2^32 corners are exceeded, and then any will do.
+        if let Some(order) = FanOrder::new(self.vertex_count()).order(triangles) {
+            let in_runs = triangles.to_vec();
+            for (triangle, place) in triangles.iter_mut().zip(order) {
+                *triangle = in_runs[place as usize];
+            }
+        }
+        Ok(n_indices)
+    }
+
+    /// Average cache miss ratio of the cut drawn as its runs, with a cache of `cache_len` vertices, first in, first out. Looks at
+    /// every triangle. Zero for simplices other than triangles.
+    pub fn miss_ratio(&self, cache_len: u32) -> f64 {
+        if self.lod().n_corners() != 3 {
+            return 0.0;
+        }
+        let vertex_count = self.vertex_count();
+        let triangles = self.runs().flat_map(|run| self.lod().indices()[run.index_range(3)].as_chunks().0);
+        let valid = triangles.filter(|triangle| triangle.iter().all(|&v| (v as usize) < vertex_count));
+        vertex_cache::miss_ratio(valid.copied(), cache_len)
     }
 
     fn copy_runs(&self, indices: &mut [u32], copy: impl Fn(&mut [u32], &[u32])) -> Result<usize, QueryError> {

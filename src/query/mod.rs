@@ -8,13 +8,16 @@ mod cut;
 mod delta;
 mod error;
 mod extract;
+mod geomorph;
 mod lod;
+mod patches;
 mod picker;
 mod view;
 
 pub use cut::Cut;
 pub use delta::Delta;
 pub use error::QueryError;
+pub use geomorph::Landing;
 pub use lod::{CurvePoint, Lod};
 pub use picker::Picker;
 pub use view::{Projection, View};

@@ -15,6 +15,7 @@ mod map;
 mod memory;
 mod metadata;
 mod opened;
+mod pieces;
 mod publish;
 mod verify;
 mod write;

@@ -3,10 +3,12 @@
 use super::arrange::{Grid, VertexOrder, bounds};
 use super::attributes::AttributeSections;
 use super::body::BodyWriter;
+use super::pieces::Pieces;
 use super::{Metadata, Provenance, WriteError};
 use crate::History;
 use crate::history::Levels;
-use crate::tree::{Layout, Lifetime, Run};
+use crate::tree::{Layout, Run};
+use crate::vertex_cache::FanOrder;
 use nephrite_formats::TriangleMesh;
 use nephrite_formats::neph::{
     self, CHUNK_BYTES, Header, MAGIC, MAX_METADATA_BYTES, Placement, SectionKind, VERSION,
@@ -18,6 +20,10 @@ use std::io::{self, Seek, SeekFrom, Write};
 pub struct StoreOptions {
     /// Most levels; `None` for as many as [`LEVEL_RATIO`](crate::history::LEVEL_RATIO) gives.
     pub levels: Option<u32>,
+    /// Levels per window, rounded up to a power of two: lifetimes are cut at the borders of windows, so that fewer vertices
+    /// are transformed when a level is drawn as runs. With the usual levels some 1.1 per triangle for 16 instead of 1.8, and
+    /// 0.9 for 8, in files 1.8 and 2.6 times as long. `None` for no windows.
+    pub window_levels: Option<u32>,
 }
 
 /// What was written.
@@ -58,13 +64,24 @@ pub fn write_to<const CORNERS: usize>(
     check_mesh(mesh, history)?;
     history.check()?;
     let levels = Levels::choose(history, options.levels)?;
-    let layout = lay_out(mesh, history, &levels)?;
+    let pieces = Pieces::new(history, &levels, options.window_levels)?;
+    let layout = lay_out(mesh, &pieces)?;
     let vertices = VertexOrder::new(mesh, history, &levels);
     let (run_offsets, runs) = layout.runs();
     let metadata = metadata_bytes(provenance)?;
     let attributes = AttributeSections::new(mesh)?;
-    let content =
-        Content { mesh, history, levels, layout, vertices, run_offsets, runs, metadata, attributes };
+    let content = Content {
+        mesh,
+        history,
+        levels: &levels,
+        pieces,
+        layout,
+        vertices,
+        run_offsets,
+        runs,
+        metadata,
+        attributes,
+    };
     let placement = neph::plan(&content.section_bytes(), CHUNK_BYTES)?;
     content.stream_to(stream, &placement)?;
     Ok(content.report(&placement))
@@ -93,25 +110,24 @@ fn check_mesh<const CORNERS: usize>(
 
 fn lay_out<const CORNERS: usize>(
     mesh: &TriangleMesh,
-    history: &History<CORNERS>,
-    levels: &Levels,
+    pieces: &Pieces<'_, CORNERS>,
 ) -> Result<Layout, WriteError> {
-    let n_simplices = u32::try_from(history.simplices.len()).unwrap_or(u32::MAX);
-    let mut layout =
-        Layout::build(levels.n_levels(), n_simplices, |simplex| lifetime(history, levels, simplex))?;
+    let n_levels = pieces.n_levels();
+    let mut layout = Layout::build(n_levels, pieces.n_ids()?, |id| pieces.lifetime(id))?;
     let grid = Grid::around(&mesh.positions);
-    layout.sort_groups_by_key(|simplex| {
-        grid.morton_of_centroid(&mesh.positions, history.simplices[simplex as usize])
-    });
+    layout.sort_groups_by_key(|id| grid.morton_of_centroid(&mesh.positions, pieces.vertices(id)));
+    let n_vertices = mesh.positions.len();
+    layout.order_groups(|| FanOrder::new(n_vertices), |fans, group| order_by_fans(fans, group, pieces));
     Ok(layout)
 }
 
-fn lifetime<const CORNERS: usize>(
-    history: &History<CORNERS>,
-    levels: &Levels,
-    simplex: u32,
-) -> Option<Lifetime> {
-    levels.lifetime(history.birth[simplex as usize], history.death[simplex as usize])
+/// Orders the triangles of a group for the vertex cache; leaves other simplices as they are.
+fn order_by_fans<const CORNERS: usize>(fans: &mut FanOrder, group: &mut [u32], pieces: &Pieces<'_, CORNERS>) {
+    let triangle = |&id: &u32| <[u32; 3]>::try_from(pieces.vertices(id).as_slice()).ok();
+    let Some(triangles) = group.iter().map(triangle).collect::<Option<Vec<_>>>() else { return };
+    let Some(order) = fans.order(&triangles) else { return };
+    let ids: Vec<u32> = order.into_iter().map(|place| group[place as usize]).collect();
+    group.copy_from_slice(&ids);
 }
 
 fn metadata_bytes(provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
@@ -127,7 +143,8 @@ fn metadata_bytes(provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
 struct Content<'a, const CORNERS: usize> {
     mesh: &'a TriangleMesh,
     history: &'a History<CORNERS>,
-    levels: Levels,
+    levels: &'a Levels,
+    pieces: Pieces<'a, CORNERS>,
     layout: Layout,
     vertices: VertexOrder,
     run_offsets: Vec<u64>,
@@ -199,9 +216,11 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             SectionKind::Positions => {
                 body.put_each(self.vertices.order.iter().map(|&vertex| self.mesh.positions[vertex as usize]))
             }
-            SectionKind::Simplices => body.put_each(slots.flat_map(|&simplex| {
-                self.history.simplices[simplex as usize].map(|vertex| self.vertices.rank[vertex as usize])
-            })),
+            SectionKind::Simplices => {
+                body.put_each(slots.flat_map(|&id| {
+                    self.pieces.vertices(id).map(|vertex| self.vertices.rank[vertex as usize])
+                }))
+            }
             SectionKind::Stamps => body.put_each(self.stamps()),
             // Known only when the body is written.
             SectionKind::Checksums => Ok(()),
@@ -214,9 +233,8 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
 
     fn stamps(&self) -> impl Iterator<Item = u32> + '_ {
         self.layout.groups().flat_map(move |(group, slots)| {
-            self.layout.slots()[slots].iter().filter_map(move |&simplex| {
-                lifetime(self.history, &self.levels, simplex).map(|lifetime| group.stored_stamp(lifetime))
-            })
+            let ids = self.layout.slots()[slots].iter();
+            ids.filter_map(move |&id| self.pieces.lifetime(id).map(|lifetime| group.stored_stamp(lifetime)))
         })
     }
 

@@ -114,6 +114,25 @@ impl Layout {
         self.slots = slots;
     }
 
+    /// Gives the ids of each group to `order`, which may change their order. Groups run on all threads of the current rayon
+    /// pool, each thread with a state of its own from `init`; the result must not depend on that state.
+    pub fn order_groups<S>(
+        &mut self,
+        init: impl Fn() -> S + Sync + Send,
+        order: impl Fn(&mut S, &mut [u32]) + Sync + Send,
+    ) {
+        let mut slots = std::mem::take(&mut self.slots);
+        let mut rest = slots.as_mut_slice();
+        let mut groups = Vec::new();
+        for (_, range) in self.groups() {
+            let (group, behind) = std::mem::take(&mut rest).split_at_mut(range.len());
+            groups.push(group);
+            rest = behind;
+        }
+        groups.into_par_iter().for_each_init(init, order);
+        self.slots = slots;
+    }
+
     /// Levels the tree is over.
     pub fn n_levels(&self) -> u32 {
         self.n_levels

@@ -101,6 +101,10 @@ pub fn open_and_use(bytes: &[u8]) -> Outcome {
 /// What changes between any two levels is inside the slots.
 fn use_deltas(lod: &Lod, n_slots: usize) {
     let last = lod.n_levels() - 1;
+    if let Ok(landings) = lod.geomorph(0, last) {
+        let corners = landings.iter().flatten().flat_map(|landing| landing.triangle);
+        assert!({ corners }.all(|vertex| (vertex as usize) < lod.vertices().len()));
+    }
     for (from, to) in
         [(0, 1), (1, 0), (0, last), (last, 0), (last / 2, last / 2 + 1), (last / 3, last), (2, 2)]
     {

@@ -14,8 +14,13 @@ use std::io::Cursor;
 
 /// The bytes of a file, written to memory.
 pub fn file_bytes(mesh: &TriangleMesh, history: &History<3>, levels: Option<u32>) -> Vec<u8> {
+    file_bytes_with(mesh, history, &StoreOptions { levels, ..StoreOptions::default() })
+}
+
+/// The bytes of a file with any options.
+pub fn file_bytes_with(mesh: &TriangleMesh, history: &History<3>, options: &StoreOptions) -> Vec<u8> {
     let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions { levels }).unwrap();
+    write_to(&mut stream, mesh, history, &Provenance::default(), options).unwrap();
     stream.into_inner()
 }
 
