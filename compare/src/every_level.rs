@@ -54,7 +54,13 @@ pub fn build_lod(
         KeptLevels::All => Some(u32::MAX),
     };
     let mut file = Cursor::new(vec![]);
-    write_to(&mut file, &build.mesh, &build.history, &Provenance::default(), &StoreOptions { levels, ..StoreOptions::default() })?;
+    write_to(
+        &mut file,
+        &build.mesh,
+        &build.history,
+        &Provenance::default(),
+        &StoreOptions { levels, ..StoreOptions::default() },
+    )?;
     Ok(Build { lod: Lod::from_bytes(file.get_ref())?, seconds })
 }
 
