@@ -45,7 +45,7 @@ fn on_a_flat_surface_every_vertex_stays_where_it_is() {
     let lod = built(&mesh, None);
     // Beyond it the corners of the square are cut off.
     let flat = lod.at_error(1e-5);
-    assert!(flat.level() > 0 && flat.n_triangles() < 20);
+    assert!(flat.level() > 0);
     for coarse in 1..=flat.level() {
         assert!(check(&lod, 0, coarse).into_iter().all(|distance| distance < 1e-5));
     }
