@@ -206,3 +206,15 @@ fn the_demo_writes_levels_to_open() {
     }
     assert_eq!(place.files(), ["elsewhere", "nephrite-demo"]);
 }
+
+#[test]
+fn verify_proves_certified_errors_anew_and_refuses_estimates() {
+    let (place, build) = built("cosine --side 24");
+    let verified = place.json("verify out.neph --bound");
+    assert_eq!(number(&verified, "levels_proven"), number(&build, "levels") - 1.0);
+    let few = place.json("verify out.neph --bound --bound-levels 3");
+    assert_eq!(number(&few, "levels_proven"), 3.0);
+    place.done("build in.ply -o joint.neph --bound joint");
+    let line = place.failure("verify joint.neph --bound");
+    assert!(line.contains("joint.neph") && line.contains("certified"), "{line}");
+}
