@@ -22,7 +22,7 @@ pub struct StoreOptions {
     pub levels: Option<u32>,
     /// Levels per window, rounded up to a power of two: lifetimes are cut at the borders of windows, so that fewer vertices
     /// are transformed when a level is drawn as runs. With the usual levels some 1.1 per triangle for 16 instead of 1.8, and
-    /// 0.9 for 8, in files 1.8 and 2.6 times as long. `None` for no windows.
+    /// 0.9 for 8, in files 1.8 and 2.8 times as long. `None` for no windows.
     pub window_levels: Option<u32>,
 }
 
