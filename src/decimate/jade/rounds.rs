@@ -9,7 +9,8 @@ use crate::bound::accumulated::round_up;
 use crate::mesh::Surface;
 use rayon::prelude::*;
 
-/// Candidates that one thread judges at a time.
+/// Most candidates that one thread takes at a time. Of few candidates it takes fewer: the last ones of a history stand for
+/// thousands of input vertices each.
 const CHUNK: usize = 32;
 
 /// Removals that are planned before the first of them is carried out.
@@ -94,7 +95,7 @@ fn judge_all(decimation: &Decimation, candidates: &mut Candidates, limits: Limit
     let (workers, c2) = (&decimation.workers, decimation.c2);
     let situation = decimation.situation();
     let verdicts: Vec<Verdict> = worklist
-        .par_chunks(CHUNK)
+        .par_chunks(chunk_len(worklist.len()))
         .flat_map_iter(|chunk| {
             let mut scratch = workers.scratch();
             chunk.iter().map(|&v| judge(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
@@ -172,5 +173,10 @@ fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Optio
         let mut scratch = decimation.workers.scratch();
         chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
     };
-    batch.par_chunks(CHUNK).flat_map_iter(plan_chunk).collect()
+    batch.par_chunks(chunk_len(batch.len())).flat_map_iter(plan_chunk).collect()
+}
+
+/// Length of the chunks into which `n` candidates are cut for the current pool.
+fn chunk_len(n: usize) -> usize {
+    (n / (8 * rayon::current_num_threads())).clamp(1, CHUNK)
 }
