@@ -13,6 +13,9 @@ use rayon::prelude::*;
 /// thousands of input vertices each.
 const CHUNK: usize = 32;
 
+/// Candidates whose verdicts are kept at a time.
+const PART: usize = 8192;
+
 /// Removals that are planned before the first of them is carried out.
 const BATCH: usize = 512;
 
@@ -90,24 +93,26 @@ impl Candidates {
     }
 }
 
-/// Judges every vertex of the worklist, in parallel.
+/// Judges every vertex of the worklist, in parallel, a part at a time so that verdicts take little memory.
 fn judge_all(decimation: &Decimation, candidates: &mut Candidates, limits: Limits, worklist: &[u32]) {
-    let (workers, c2) = (&decimation.workers, decimation.c2);
     let situation = decimation.situation();
-    let verdicts: Vec<Verdict> = worklist
-        .par_chunks(chunk_len(worklist.len()))
-        .flat_map_iter(|chunk| {
-            let mut scratch = workers.scratch();
-            chunk.iter().map(|&v| judge(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
-        })
-        .collect();
-    for (&v, verdict) in worklist.iter().zip(verdicts) {
-        let v = v as usize;
-        (candidates.needed[v], candidates.removable[v]) = match verdict {
-            Verdict::Removable(errors) => (0.0, round_up(errors.global)),
-            Verdict::Above(errors) => (round_up(errors.local.max(errors.global / c2)), UNKNOWN),
-            Verdict::Impossible => (f32::INFINITY, UNKNOWN),
-        };
+    let judge_chunk = |chunk: &[u32]| {
+        let mut scratch = decimation.workers.scratch();
+        chunk.iter().map(|&v| judge(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
+    };
+    for part in worklist.chunks(PART) {
+        let verdicts: Vec<Verdict> =
+            part.par_chunks(chunk_len(part.len())).flat_map_iter(judge_chunk).collect();
+        for (&v, verdict) in part.iter().zip(verdicts) {
+            let v = v as usize;
+            (candidates.needed[v], candidates.removable[v]) = match verdict {
+                Verdict::Removable(errors) => (0.0, round_up(errors.global)),
+                Verdict::Above(errors) => {
+                    (round_up(errors.local.max(errors.global / decimation.c2)), UNKNOWN)
+                }
+                Verdict::Impossible => (f32::INFINITY, UNKNOWN),
+            };
+        }
     }
 }
 
