@@ -4,6 +4,7 @@ use super::chains::Portion;
 use super::{Certified, NONE, NOT_ON_RIM};
 use crate::bound::Replacement;
 use crate::bound::covered::{Covered, Over};
+use crate::bound::removed::nearest;
 use crate::geometry::distance::{Segment, point_triangle_distance_sq};
 use crate::geometry::vector::Vector;
 
@@ -60,19 +61,10 @@ impl Removal<'_> {
         self.replacement.filling.corners(self.replacement.hole, label.into()).contains(&v)
     }
 
-    pub(super) fn nearest(&self, p: Vector) -> (u8, f64) {
-        (0..)
-            .zip(0..self.replacement.filling.triangles.len())
-            .map(|(label, i)| {
-                (
-                    label,
-                    point_triangle_distance_sq(
-                        p,
-                        &self.replacement.filling.triangle(self.replacement.hole, i),
-                    ),
-                )
-            })
-            .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+    #[expect(clippy::cast_possible_truncation, reason = "a filling has fewer than MAX_VALENCE triangles")]
+    fn nearest(&self, p: Vector) -> (u8, f64) {
+        let (label, distance_sq) = nearest(self.replacement.hole, self.replacement.filling, p);
+        (label as u8, distance_sq)
     }
 
     /// End points of the ring edge after ring vertex `i`; for the last one of a chain, of the new boundary edge.
