@@ -11,7 +11,7 @@ use nephrite_formats::neph::{
     AttributeRecord, HEADER_BYTES, Header, NephError, SECTION_RECORD_BYTES, SectionKind, SectionRecord,
 };
 use support::damage::{Outcome, Seal, edit_header, open_and_use};
-use support::synthetic::{decimate, grid};
+use support::synthetic::{decimate, grid, succeed};
 
 fn valid_file() -> Vec<u8> {
     let mesh = grid(5);
@@ -178,6 +178,47 @@ fn except_that_unknown_optional_sections_are_skipped() {
     lod.verify().unwrap();
     assert_eq!(lod.attributes().len(), 0);
     assert!(lod.at_level(0).to_mesh().is_ok());
+}
+
+/// As [`valid_file`], with vertices that are born at later levels.
+fn valid_file_with_births() -> Vec<u8> {
+    let mut mesh = grid(5);
+    let mut history = decimate(&mesh, usize::MAX, 3);
+    succeed(&mut mesh, &mut history, 5);
+    support::file_bytes(&mesh, &history, None)
+}
+
+#[test]
+fn of_the_births_of_vertices() {
+    let bytes = valid_file_with_births();
+    let seal = Seal::of(&bytes);
+    let (offset, len) = seal.section(SectionKind::VertexBirths);
+    assert!(len > 0 && matches!(open_and_use(&bytes), Outcome::Used(Ok(()))));
+    let verdict = |vertex: usize, birth: u32| {
+        let mut bytes = bytes.clone();
+        bytes[offset + 4 * vertex..][..4].copy_from_slice(&birth.to_le_bytes());
+        seal.renew(&mut bytes);
+        match open_and_use(&bytes) {
+            Outcome::Used(Err(error)) => error,
+            outcome => panic!("{outcome:?}"),
+        }
+    };
+    let last = len / 4 - 1;
+    assert!(matches!(verdict(last, u32::MAX), VerifyError::VertexBirth { found: u32::MAX, .. }));
+    let n_levels = Lod::from_bytes(&bytes).unwrap().n_levels();
+    assert!(matches!(verdict(0, n_levels), VerifyError::VertexBirth { vertex: 0, .. }));
+    // Vertices that are never gone come first.
+    let births: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes[offset..offset + len]);
+    let first_old = births.iter().position(|&birth| birth == 0).unwrap();
+    let found = first_old as u32;
+    assert!(matches!(verdict(first_old, 1), VerifyError::UnbornVertex { found: f, .. } if f == found));
+
+    // The section has an entry for every vertex or is not there.
+    let bytes = with_records(|records| {
+        record(records, SectionKind::AttributeValues).kind = SectionKind::VertexBirths.code();
+    });
+    let wrong = |error| matches!(error, NephError::SectionBytes { kind: SectionKind::VertexBirths, .. });
+    assert!(wrong(refusal(&bytes)));
 }
 
 /// What verification says about a file in which one number of a section is changed, sealed again.

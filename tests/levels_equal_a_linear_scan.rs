@@ -8,7 +8,7 @@ use nephrite::query::QueryError;
 use nephrite::store::{Provenance, StoreOptions, write_to};
 use nephrite::{Lod, TriangleMesh};
 use proptest::prelude::*;
-use support::synthetic::{Random, decimate, grid};
+use support::synthetic::{Random, decimate, grid, succeed};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
@@ -25,6 +25,46 @@ proptest! {
         let levels = Levels::choose(&history, limit).unwrap();
         support::assert_levels_equal_scans(&lod, &mesh, &history, &levels);
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn of_any_history_in_which_vertices_are_born(
+        side in 2usize..12, n_removals in 0usize..100, seed: u64, limit in prop::option::of(1u32..40)
+    ) {
+        let mut mesh = grid(side);
+        let mut history = decimate(&mesh, n_removals, seed);
+        succeed(&mut mesh, &mut history, seed ^ 1);
+        prop_assert_eq!(history.check(), Ok(()));
+        let lod = Lod::from_bytes(&support::file_bytes(&mesh, &history, limit)).unwrap();
+        lod.verify().unwrap();
+        let levels = Levels::choose(&history, limit).unwrap();
+        support::assert_levels_equal_scans(&lod, &mesh, &history, &levels);
+        for level in 0..lod.n_levels() {
+            let cut = lod.at_level(level);
+            let found = cut.to_mesh().unwrap();
+            // A mesh of its own holds what its triangles use, each vertex with its own values.
+            let n_used = found.triangles.iter().flatten().collect::<std::collections::BTreeSet<_>>().len();
+            prop_assert_eq!((found.positions.len(), cut.n_vertices()), (n_used, n_used));
+            prop_assert!(found.check().is_ok());
+        }
+    }
+}
+
+#[test]
+fn vertices_that_no_level_sees_are_not_stored() {
+    let mut mesh = grid(12);
+    let mut history = decimate(&mesh, usize::MAX, 3);
+    succeed(&mut mesh, &mut history, 4);
+    let lod = Lod::from_bytes(&support::file_bytes(&mesh, &history, Some(3))).unwrap();
+    let levels = Levels::choose(&history, Some(3)).unwrap();
+    let lifetimes = (0..).zip(&history.vertex_death);
+    let is_seen = |v: u32, death: u32| levels.lifetime(history.vertex_birth(v), death).is_some();
+    let n_seen = lifetimes.filter(|&(v, &death)| is_seen(v, death)).count();
+    assert_eq!(lod.vertices().len(), n_seen);
+    assert!(n_seen < mesh.positions.len());
 }
 
 #[test]

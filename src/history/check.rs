@@ -61,11 +61,35 @@ pub enum HistoryError {
         /// Death of the vertex, or nothing where there is no such vertex.
         vertex_death: Option<u32>,
     },
+    /// A simplex uses a vertex that is not there yet when it is born.
+    #[error("simplex {simplex} is born at step {birth}, its vertex {vertex} at step {vertex_birth}")]
+    UnbornVertex {
+        /// Which simplex.
+        simplex: u32,
+        /// Its birth.
+        birth: u32,
+        /// The vertex.
+        vertex: u32,
+        /// Birth of the vertex.
+        vertex_birth: u32,
+    },
     /// A vertex dies at step 0.
     #[error("vertex {vertex} is dead in the input")]
     DeadVertex {
         /// Which vertex.
         vertex: u32,
+    },
+    /// A vertex dies before it is born, or is born after the last step.
+    #[error("vertex {vertex} has the lifetime [{birth}, {death}) in {n_steps} steps")]
+    VertexLifetime {
+        /// Which vertex.
+        vertex: u32,
+        /// Its birth.
+        birth: u32,
+        /// Its death.
+        death: u32,
+        /// Last step.
+        n_steps: u32,
     },
     /// A level has more simplices than the one before it.
     #[error("step {step} has {found} simplices, more than the {before} of the level before it")]
@@ -93,11 +117,7 @@ impl<const CORNERS: usize> History<CORNERS> {
     pub fn check(&self) -> Result<(), HistoryError> {
         self.check_lengths()?;
         self.check_errors()?;
-        for (vertex, &death) in (0..).zip(&self.vertex_death) {
-            if death == 0 {
-                return Err(HistoryError::DeadVertex { vertex });
-            }
-        }
+        self.check_vertices()?;
         let n_steps = self.n_steps();
         let lifetimes = self.birth.iter().zip(&self.death);
         for (simplex, (vertices, (&birth, &death))) in (0..).zip(self.simplices.iter().zip(lifetimes)) {
@@ -109,6 +129,29 @@ impl<const CORNERS: usize> History<CORNERS> {
                 if vertex_death.is_none_or(|vertex_death| vertex_death < death) {
                     return Err(HistoryError::Vertex { simplex, death, vertex, vertex_death });
                 }
+                let vertex_birth = self.vertex_birth(vertex);
+                if vertex_birth > birth {
+                    return Err(HistoryError::UnbornVertex { simplex, birth, vertex, vertex_birth });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Step at which a vertex appears.
+    pub fn vertex_birth(&self, vertex: u32) -> u32 {
+        self.vertex_birth.get(vertex as usize).copied().unwrap_or(0)
+    }
+
+    fn check_vertices(&self) -> Result<(), HistoryError> {
+        let n_steps = self.n_steps();
+        for (vertex, &death) in (0..).zip(&self.vertex_death) {
+            if death == 0 {
+                return Err(HistoryError::DeadVertex { vertex });
+            }
+            let birth = self.vertex_birth(vertex);
+            if birth >= death || birth > n_steps {
+                return Err(HistoryError::VertexLifetime { vertex, birth, death, n_steps });
             }
         }
         Ok(())
@@ -121,6 +164,10 @@ impl<const CORNERS: usize> History<CORNERS> {
             if found != expected {
                 return Err(HistoryError::Length { array, found, expected });
             }
+        }
+        let (found, expected) = (self.vertex_birth.len() as u64, self.vertex_death.len() as u64);
+        if found != 0 && found != expected {
+            return Err(HistoryError::Length { array: "vertex_birth", found, expected });
         }
         let lengths = [
             ("simplices", self.simplices.len()),
@@ -161,9 +208,33 @@ mod tests {
             simplices: vec![[0, 1, 2], [0, 2, 3], [0, 1, 3]],
             birth: vec![0, 0, 1],
             death: vec![1, 1, NEVER],
+            vertex_birth: vec![],
             vertex_death: vec![NEVER, NEVER, 1, NEVER],
             errors: vec![0.0, 0.5],
         }
+    }
+
+    #[test]
+    fn vertices_are_born_before_they_die_and_before_they_are_used() {
+        let with_births = |vertex_birth: [u32; 4]| {
+            History { vertex_birth: vertex_birth.to_vec(), ..quad_to_triangle() }.check()
+        };
+        assert_eq!(with_births([0; 4]), Ok(()));
+        let mut grown = quad_to_triangle();
+        grown.vertex_birth = vec![0, 0, 0, 0, 1];
+        grown.vertex_death.push(NEVER);
+        grown.simplices[2] = [0, 1, 4];
+        assert_eq!(grown.check(), Ok(()));
+        let lifetime =
+            |vertex, birth, death| HistoryError::VertexLifetime { vertex, birth, death, n_steps: 1 };
+        assert_eq!(with_births([0, 0, 1, 0]), Err(lifetime(2, 1, 1)));
+        assert_eq!(with_births([2, 0, 0, 0]), Err(lifetime(0, 2, NEVER)));
+        let unborn = HistoryError::UnbornVertex { simplex: 0, birth: 0, vertex: 1, vertex_birth: 1 };
+        assert_eq!(with_births([0, 1, 0, 0]), Err(unborn));
+        let mut short = quad_to_triangle();
+        short.vertex_birth = vec![0; 3];
+        let length = HistoryError::Length { array: "vertex_birth", found: 3, expected: 4 };
+        assert_eq!(short.check(), Err(length));
     }
 
     #[test]

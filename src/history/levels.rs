@@ -22,6 +22,7 @@ pub const LEVEL_RATIO: f64 = 63.0 / 64.0;
 ///     simplices: vec![[0, 1, 2], [0, 2, 3], [0, 1, 3]],
 ///     birth: vec![0, 0, 1],
 ///     death: vec![1, 1, NEVER],
+///     vertex_birth: vec![],
 ///     vertex_death: vec![NEVER, NEVER, 1, NEVER],
 ///     errors: vec![0.0, 0.5],
 /// };
@@ -252,6 +253,7 @@ mod tests {
             simplices: vec![[0, 1, 2]; 4],
             birth: vec![0, 1, 2, 0],
             death: vec![NEVER, 2, 3, 3],
+            vertex_birth: vec![],
             vertex_death: vec![NEVER; 3],
             errors: vec![0.0, 1.0, 1.0, 2.0],
         };

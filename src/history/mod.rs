@@ -18,8 +18,10 @@ pub const NEVER: u32 = u32::MAX;
 /// Lifetimes of all simplices and vertices of one decimation, in steps.
 ///
 /// Shapes: `simplices`, `birth` and `death` run in parallel, in order of death;
-/// `vertex_death[v]` belongs to vertex `v` of the input; `errors.len() == n_steps + 1`.
-/// Invariants: `birth < death`; a simplex uses only vertices that die no earlier than it does; `errors` never falls.
+/// `vertex_death[v]` belongs to vertex `v`, those of the input first; `vertex_birth` is as long, or empty where every vertex is
+/// one of the input; `errors.len() == n_steps + 1`.
+/// Invariants: `birth < death` for simplices and vertices; a simplex uses only vertices that are born no later and die no
+/// earlier than it does; `errors` never falls.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History<const CORNERS: usize = 3> {
     /// Vertex indices of every simplex that ever lived.
@@ -28,6 +30,8 @@ pub struct History<const CORNERS: usize = 3> {
     pub birth: Vec<u32>,
     /// Step at which each simplex is gone, or [`NEVER`].
     pub death: Vec<u32>,
+    /// Step at which each vertex appears; empty for 0 throughout.
+    pub vertex_birth: Vec<u32>,
     /// Step at which each vertex is gone, or [`NEVER`].
     pub vertex_death: Vec<u32>,
     /// Error of the mesh at each step, in mesh units; `errors[0]` is that of the input itself.

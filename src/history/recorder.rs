@@ -39,6 +39,21 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         self.birth_in_slot[slot as usize] = self.now();
     }
 
+    /// A vertex is born at this step; gives its index, the next after those there are. It dies like any other.
+    pub fn vertex(&mut self) -> u32 {
+        let now = self.now();
+        let History { vertex_birth, vertex_death, .. } = &mut self.history;
+        vertex_birth.resize(vertex_death.len(), 0);
+        vertex_birth.push(now);
+        vertex_death.push(0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "`History::check` refuses more vertices than u32 counts"
+        )]
+        let vertex = (vertex_death.len() - 1) as u32;
+        vertex
+    }
+
     /// The whole history, given what is alive now. A vertex dies with the last simplex that uses it.
     pub fn finish(mut self, alive: impl Iterator<Item = (u32, [u32; CORNERS])>) -> History<CORNERS> {
         alive.for_each(|(slot, simplex)| self.record(slot, simplex, NEVER));

@@ -1,8 +1,9 @@
 //! The answer to a query.
 
+use super::used::UsedVertices;
 use super::{Lod, QueryError};
 use crate::tree::Runs;
-use nephrite_formats::{Attribute, TriangleMesh};
+use nephrite_formats::TriangleMesh;
 
 /// The mesh at one level: a few runs of the index buffer and a prefix of the vertex buffer. Copying it copies two words.
 ///
@@ -63,18 +64,28 @@ impl<'a> Cut<'a> {
         self.n_triangles() * self.lod.n_corners() as usize
     }
 
-    /// Vertices of the level, a prefix of [`Lod::vertices`].
+    /// Length of the prefix of [`Lod::vertices`] that holds the vertices of the level: what a vertex buffer needs, and the
+    /// limit of every index. In a file with [births](Lod::vertex_births) the prefix also holds vertices that only coarser
+    /// levels use.
     pub fn vertex_count(&self) -> usize {
         let stated = self.lod.file().vertex_counts()[self.level as usize] as usize;
         stated.min(self.lod.vertices().len())
     }
 
-    /// Positions of the level's vertices.
+    /// Vertices of the level: those of the prefix that are born. Cost: none without births, otherwise one pass over the prefix.
+    pub fn n_vertices(&self) -> usize {
+        let births = self.lod.vertex_births();
+        let prefix = births.get(..self.vertex_count()).unwrap_or(&[]);
+        self.vertex_count() - prefix.iter().filter(|&&birth| birth > self.level).count()
+    }
+
+    /// Positions of the prefix that holds the level's vertices.
     pub fn vertices(&self) -> &'a [[f32; 3]] {
         &self.lod.vertices()[..self.vertex_count()]
     }
 
-    /// The level as a mesh of its own, attributes included. Every index and every position is checked.
+    /// The level as a mesh of its own, attributes included, without vertices that no triangle uses. Every index and every
+    /// position is checked.
     ///
     /// # Errors
     ///
@@ -91,17 +102,12 @@ impl<'a> Cut<'a> {
         let mut triangles = vec![[0; 3]; self.n_triangles()];
         self.extract_into(triangles.as_flattened_mut())?;
         self.check_indices(triangles.as_flattened())?;
-        let attributes = self.lod.attributes().map(|view| Attribute {
-            name: view.name.to_owned(),
-            scalar: view.scalar,
-            n_components: view.n_components,
-            bytes: view.bytes.get(..positions.len() * view.stride_bytes()).unwrap_or(&[]).to_vec(),
-        });
+        let used = UsedVertices::compact(triangles.as_flattened_mut(), positions.len());
         Ok(TriangleMesh {
             origin: self.lod.origin(),
-            positions: positions.to_vec(),
+            positions: used.positions(positions),
             triangles,
-            attributes: attributes.collect(),
+            attributes: self.lod.attributes().map(|view| used.attribute(&view)).collect(),
             rounding: self.lod.rounding(),
         })
     }

@@ -20,7 +20,8 @@ pub struct Landing {
 
 impl Lod {
     /// Where each vertex that level `fine` has and level `coarse` has not comes to lie on level `coarse`. The vertices are those
-    /// from `at_level(coarse).vertex_count()` up to `at_level(fine).vertex_count()`, in their order.
+    /// from `at_level(coarse).vertex_count()` up to `at_level(fine).vertex_count()`, in their order; `None` for those among them
+    /// that are born on the way.
     ///
     /// The nearest triangle of the coarser level may be on another sheet of the surface. A vertex lands instead on the
     /// nearest one of the triangles that replaced those around it, as the lifetimes tell, and when that triangle is replaced in
@@ -47,7 +48,12 @@ impl Lod {
         for level in fine.level()..coarse.level() {
             flights.pass(level)?;
         }
-        Ok(flights.landings)
+        let Flights { first_vertex, mut landings, .. } = flights;
+        let births = self.vertex_births().get(first_vertex..).unwrap_or(&[]);
+        for (landing, _) in landings.iter_mut().zip(births).filter(|(_, birth)| **birth > fine.level()) {
+            *landing = None;
+        }
+        Ok(landings)
     }
 }
 

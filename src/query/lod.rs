@@ -89,17 +89,46 @@ impl Lod {
         self.file.errors()
     }
 
-    /// The whole curve, finest level first.
+    /// The whole curve, finest level first. Cost: in a file with [births](Self::vertex_births) one pass over them and 4 bytes
+    /// per level.
     pub fn curve(&self) -> impl ExactSizeIterator<Item = CurvePoint> + '_ {
+        let mut n_unborn = self.unborn_counts().into_iter();
         let counts = self.file.simplex_counts().iter().zip(self.file.vertex_counts());
-        self.errors().iter().zip(counts).map(|(&error, (&triangles, &vertices))| CurvePoint {
+        let counts = counts.map(move |(&triangles, &vertices)| {
+            (triangles, vertices.saturating_sub(n_unborn.next().unwrap_or(0)))
+        });
+        self.errors().iter().zip(counts).map(|(&error, (triangles, vertices))| CurvePoint {
             error,
             triangles,
             vertices,
         })
     }
 
-    /// Positions of all vertices, relative to [`origin`](Self::origin). The vertices of any level are a prefix.
+    /// Vertices born after each level; empty where all are born at level 0. Every one of them dies later still.
+    fn unborn_counts(&self) -> Vec<u32> {
+        let births = self.vertex_births();
+        if births.is_empty() {
+            return Vec::new();
+        }
+        let mut counts = vec![0; self.n_levels() as usize];
+        for &birth in births {
+            if let Some(count) = counts.get_mut((birth as usize).wrapping_sub(1)) {
+                *count += 1;
+            }
+        }
+        for level in (1..counts.len()).rev() {
+            counts[level - 1] += counts[level];
+        }
+        counts
+    }
+
+    /// First level that has each vertex, in the order of [`vertices`](Self::vertices); empty where level 0 has them all, as
+    /// after a decimator that only removes.
+    pub fn vertex_births(&self) -> &[u32] {
+        self.file.vertex_births()
+    }
+
+    /// Positions of all vertices, relative to [`origin`](Self::origin). The vertices of any level are in a prefix.
     pub fn vertices(&self) -> &[[f32; 3]] {
         self.file.positions()
     }

@@ -12,6 +12,7 @@ mod geomorph;
 mod lod;
 mod patches;
 mod picker;
+mod used;
 mod view;
 
 pub use cut::Cut;

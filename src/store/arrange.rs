@@ -5,16 +5,19 @@ use crate::history::Levels;
 use nephrite_formats::TriangleMesh;
 use rayon::prelude::*;
 
-/// Vertices by the level at which they die, latest first, neighbours on the surface together.
+/// Vertices by the level at which they die, latest first, neighbours on the surface together. Those that no level sees are
+/// left out.
 ///
-/// Memory: 8 bytes per vertex, 24 more while it is made.
+/// Memory: 8 bytes per vertex, 24 more while it is made; 4 more where vertices are born.
 pub(super) struct VertexOrder {
-    /// Input vertex at each place in the file.
+    /// Vertex of the history at each place in the file.
     pub order: Vec<u32>,
-    /// Place in the file of each input vertex.
+    /// Place in the file of each vertex of the history; without a meaning for those left out.
     pub rank: Vec<u32>,
-    /// Vertices alive at each level; the vertices of a level are a prefix of `order`.
+    /// Vertices that die after each level, a prefix of `order` that holds every vertex of the level.
     pub counts: Vec<u32>,
+    /// Level at which the vertex at each place is born; empty where all are born at level 0.
+    pub births: Vec<u32>,
 }
 
 impl VertexOrder {
@@ -28,8 +31,9 @@ impl VertexOrder {
         let mut keys: Vec<(u32, u64, u32)> = (0u32..)
             .zip(&mesh.positions)
             .zip(&history.vertex_death)
-            .map(|((vertex, &position), &death)| {
-                (u32::MAX - levels.at_or_after(death), grid.morton(position), vertex)
+            .filter_map(|((vertex, &position), &death)| {
+                let lifetime = levels.lifetime(history.vertex_birth(vertex), death)?;
+                Some((u32::MAX - lifetime.death(), grid.morton(position), vertex))
             })
             .collect();
         keys.par_sort_unstable();
@@ -41,18 +45,26 @@ impl VertexOrder {
             counts.push(u32::try_from(n_alive).unwrap_or(u32::MAX));
         }
         drop(keys);
-        let mut rank = vec![0; order.len()];
+        let mut rank = vec![0; mesh.positions.len()];
         for (place, &vertex) in (0..).zip(&order) {
             rank[vertex as usize] = place;
         }
-        Self { order, rank, counts }
+        let mut births: Vec<u32> = match history.vertex_birth.is_empty() {
+            true => Vec::new(),
+            false => order.iter().map(|&v| levels.at_or_after(history.vertex_birth(v))).collect(),
+        };
+        if births.iter().all(|&birth| birth == 0) {
+            births.clear();
+        }
+        Self { order, rank, counts, births }
     }
 }
 
 /// Least and largest coordinates; zero for no positions.
-pub(super) fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
-    let Some(&first) = positions.first() else { return ([0.0; 3], [0.0; 3]) };
-    positions.iter().fold((first, first), |(min, max), position| {
+pub(super) fn bounds(positions: impl IntoIterator<Item = [f32; 3]>) -> ([f32; 3], [f32; 3]) {
+    let mut positions = positions.into_iter();
+    let Some(first) = positions.next() else { return ([0.0; 3], [0.0; 3]) };
+    positions.fold((first, first), |(min, max), position| {
         (std::array::from_fn(|i| min[i].min(position[i])), std::array::from_fn(|i| max[i].max(position[i])))
     })
 }
@@ -69,7 +81,7 @@ impl Grid {
     const CELLS: f64 = 2_097_151.0;
 
     pub(super) fn around(positions: &[[f32; 3]]) -> Self {
-        let (min, max) = bounds(positions);
+        let (min, max) = bounds(positions.iter().copied());
         let side = (0..3).map(|i| f64::from(max[i]) - f64::from(min[i])).fold(0.0, f64::max);
         Self { min: min.map(f64::from), cells_per_unit: if side > 0.0 { Self::CELLS / side } else { 0.0 } }
     }

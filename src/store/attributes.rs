@@ -15,7 +15,8 @@ pub(super) struct AttributeSections {
 }
 
 impl AttributeSections {
-    pub(super) fn new(mesh: &TriangleMesh) -> Result<Self, WriteError> {
+    /// The attributes of `mesh` for `n_stored` of its vertices.
+    pub(super) fn new(mesh: &TriangleMesh, n_stored: usize) -> Result<Self, WriteError> {
         let n_vertices = mesh.positions.len() as u64;
         let mut sections = Self { table: Vec::new(), names: Vec::new(), values_bytes: 0 };
         let mut seen = HashSet::new();
@@ -37,7 +38,7 @@ impl AttributeSections {
             if !seen.insert(attribute.name.as_str()) {
                 return error("attributes of that name", 2, 1);
             }
-            sections.push(attribute)?;
+            sections.push(attribute, n_stored as u64 * attribute.stride_bytes() as u64)?;
         }
         let found = sections.table.len() as u64;
         if found > MAX_ATTRIBUTES {
@@ -46,7 +47,7 @@ impl AttributeSections {
         Ok(sections)
     }
 
-    fn push(&mut self, attribute: &Attribute) -> Result<(), WriteError> {
+    fn push(&mut self, attribute: &Attribute, values_bytes: u64) -> Result<(), WriteError> {
         let found = self.names.len() as u64 + attribute.name.len() as u64;
         let too_long = WriteError::TooManyAttributes {
             what: "bytes of attribute names",
@@ -58,7 +59,6 @@ impl AttributeSections {
             return Err(too_long);
         };
         let values_offset = align(self.values_bytes);
-        let values_bytes = attribute.bytes.len() as u64;
         self.values_bytes = values_offset + values_bytes;
         self.names.extend_from_slice(attribute.name.as_bytes());
         self.table.push(AttributeRecord {

@@ -200,6 +200,28 @@ pub enum VerifyError {
         /// Vertices of the last level in which the simplex is alive.
         vertex_count: u32,
     },
+    /// A simplex uses a vertex that is born after it.
+    #[error("slot {slot} is born at level {birth} and uses vertex {found}, born at level {vertex_birth}")]
+    UnbornVertex {
+        /// Which slot.
+        slot: u32,
+        /// The vertex index.
+        found: u32,
+        /// Birth of the simplex.
+        birth: u32,
+        /// Birth of the vertex.
+        vertex_birth: u32,
+    },
+    /// A vertex is born when it is dead already.
+    #[error("vertex {vertex} is born at level {found}, but not there from level {death} on")]
+    VertexBirth {
+        /// Which vertex.
+        vertex: u32,
+        /// Its birth.
+        found: u32,
+        /// First level without it.
+        death: u32,
+    },
     /// A position is not finite, or outside the bounds of the header.
     #[error("position of vertex {vertex} is not finite or outside the bounds")]
     Position {

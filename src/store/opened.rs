@@ -98,9 +98,14 @@ impl Opened {
         self.section(SectionKind::SimplexCounts)
     }
 
-    /// Vertices alive at each level, as the file states them.
+    /// Vertices that die after each level, as the file states them: a prefix that holds the vertices of the level.
     pub fn vertex_counts(&self) -> &[u32] {
         self.section(SectionKind::VertexCounts)
+    }
+
+    /// First level that has each vertex; empty where level 0 has them all.
+    pub fn vertex_births(&self) -> &[u32] {
+        self.section(SectionKind::VertexBirths)
     }
 
     /// Positions of all vertices.

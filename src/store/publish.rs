@@ -31,6 +31,7 @@ use tempfile::NamedTempFile;
 ///     simplices: vec![[0, 1, 2], [0, 2, 3], [0, 1, 3]],
 ///     birth: vec![0, 0, 1],
 ///     death: vec![1, 1, NEVER],
+///     vertex_birth: vec![],
 ///     vertex_death: vec![NEVER, NEVER, 1, NEVER],
 ///     errors: vec![0.0, 0.5],
 /// };

@@ -31,6 +31,7 @@ impl Opened {
         self.check_errors()?;
         self.check_positions()?;
         self.check_vertex_counts()?;
+        self.check_vertex_births()?;
         self.check_tree()?;
         self.check_simplex_counts()
     }
@@ -93,9 +94,26 @@ impl Opened {
         Ok(())
     }
 
+    /// Every vertex is born before the first level that does not have it in its prefix.
+    fn check_vertex_births(&self) -> Result<(), VerifyError> {
+        let mut death = self.header().n_levels;
+        let counts = self.vertex_counts();
+        for (vertex, &found) in (0..).zip(self.vertex_births()) {
+            // Vertices are ordered by death, and counts never rise.
+            while death > 0 && counts.get(death as usize - 1).is_some_and(|&count| count <= vertex) {
+                death -= 1;
+            }
+            if found >= death {
+                return Err(VerifyError::VertexBirth { vertex, found, death });
+            }
+        }
+        Ok(())
+    }
+
     fn check_tree(&self) -> Result<(), VerifyError> {
         let n_corners = self.header().n_corners as usize;
         let (simplices, vertex_counts) = (self.simplices(), self.vertex_counts());
+        let vertex_births = self.vertex_births();
         // Of the two slots of a lifetime only one counts.
         let mut n_half_lifetimes = 0u64;
         self.tree().check(self.stamps(), simplices, n_corners, |slot, lifetime| {
@@ -103,8 +121,15 @@ impl Opened {
             let vertex_count = vertex_counts.get(lifetime.last() as usize).copied().unwrap_or(0);
             let start = slot as usize * n_corners;
             let vertices = simplices.get(start..start + n_corners).unwrap_or(&[]);
-            match vertices.iter().find(|&&vertex| vertex >= vertex_count) {
-                Some(&found) => Err(VerifyError::Vertex { slot, found, vertex_count }),
+            if let Some(&found) = vertices.iter().find(|&&vertex| vertex >= vertex_count) {
+                return Err(VerifyError::Vertex { slot, found, vertex_count });
+            }
+            let birth = lifetime.birth();
+            let vertex_birth = |vertex: u32| vertex_births.get(vertex as usize).copied().unwrap_or(0);
+            match vertices.iter().find(|&&vertex| vertex_birth(vertex) > birth) {
+                Some(&found) => {
+                    Err(VerifyError::UnbornVertex { slot, found, birth, vertex_birth: vertex_birth(found) })
+                }
                 None => Ok(()),
             }
         })?;

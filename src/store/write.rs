@@ -35,7 +35,7 @@ pub struct StoreReport {
     pub n_lifetimes: u32,
     /// Stored copies of simplices.
     pub n_slots: u32,
-    /// Vertices of level 0.
+    /// Vertices that some level has.
     pub n_vertices: u32,
     /// Simplices of the coarsest level.
     pub n_coarsest: u32,
@@ -69,7 +69,7 @@ pub fn write_to<const CORNERS: usize>(
     let vertices = VertexOrder::new(mesh, history, &levels);
     let (run_offsets, runs) = layout.runs();
     let metadata = metadata_bytes(provenance)?;
-    let attributes = AttributeSections::new(mesh)?;
+    let attributes = AttributeSections::new(mesh, vertices.order.len())?;
     let content = Content {
         mesh,
         history,
@@ -170,7 +170,11 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             sections.push((SectionKind::AttributeTable, size_of_val(&self.attributes.table[..]) as u64));
             sections.push((SectionKind::AttributeNames, self.attributes.names.len() as u64));
         }
-        sections.push((SectionKind::Positions, 12 * self.mesh.positions.len() as u64));
+        let n_vertices = self.vertices.order.len() as u64;
+        if !self.vertices.births.is_empty() {
+            sections.push((SectionKind::VertexBirths, 4 * n_vertices));
+        }
+        sections.push((SectionKind::Positions, 12 * n_vertices));
         if !self.attributes.table.is_empty() {
             sections.push((SectionKind::AttributeValues, self.attributes.values_bytes));
         }
@@ -208,14 +212,13 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             SectionKind::Errors => body.put_each(self.errors()),
             SectionKind::SimplexCounts => body.put(bytemuck::cast_slice(self.levels.simplex_counts())),
             SectionKind::VertexCounts => body.put(bytemuck::cast_slice(&self.vertices.counts)),
+            SectionKind::VertexBirths => body.put(bytemuck::cast_slice(&self.vertices.births)),
             SectionKind::RunOffsets => body.put(bytemuck::cast_slice(&self.run_offsets)),
             SectionKind::Runs => body.put(bytemuck::cast_slice(&self.runs)),
             SectionKind::AttributeTable => body.put(bytemuck::cast_slice(&self.attributes.table)),
             SectionKind::AttributeNames => body.put(&self.attributes.names),
             SectionKind::AttributeValues => self.stream_attribute_values(body),
-            SectionKind::Positions => {
-                body.put_each(self.vertices.order.iter().map(|&vertex| self.mesh.positions[vertex as usize]))
-            }
+            SectionKind::Positions => body.put_each(self.positions()),
             SectionKind::Simplices => {
                 body.put_each(slots.flat_map(|&id| {
                     self.pieces.vertices(id).map(|vertex| self.vertices.rank[vertex as usize])
@@ -225,6 +228,11 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             // Known only when the body is written.
             SectionKind::Checksums => Ok(()),
         }
+    }
+
+    /// Positions of the vertices in the order of the file.
+    fn positions(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
+        self.vertices.order.iter().map(|&vertex| self.mesh.positions[vertex as usize])
     }
 
     fn errors(&self) -> impl Iterator<Item = f64> + '_ {
@@ -253,7 +261,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
 
     /// The header without its checksums.
     fn header(&self, placement: &Placement) -> Header {
-        let (bounds_min, bounds_max) = bounds(&self.mesh.positions);
+        let (bounds_min, bounds_max) = bounds(self.positions());
         let n_sections = u32::try_from(placement.records.len()).unwrap_or(u32::MAX);
         Header {
             magic: MAGIC,
@@ -265,7 +273,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             checksums_checksum: 0,
             n_corners: u32::try_from(CORNERS).unwrap_or(u32::MAX),
             n_levels: self.levels.n_levels(),
-            n_vertices: self.mesh.positions.len() as u64,
+            n_vertices: self.vertices.order.len() as u64,
             n_slots: self.layout.slots().len() as u64,
             n_lifetimes: u64::from(self.layout.n_lifetimes()),
             origin: self.mesh.origin,
@@ -283,7 +291,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             n_levels: self.levels.n_levels(),
             n_lifetimes: self.layout.n_lifetimes(),
             n_slots: count(self.layout.slots().len()),
-            n_vertices: count(self.mesh.positions.len()),
+            n_vertices: count(self.vertices.order.len()),
             n_coarsest: self.levels.simplex_counts().last().copied().unwrap_or(0),
             max_error: self.errors().last().unwrap_or(0.0),
             file_bytes: placement.file_bytes,

@@ -80,6 +80,7 @@ pub fn open_and_use(bytes: &[u8]) -> Outcome {
         let n_indices = cut.extract_into(&mut buffer).unwrap();
         assert!(n_indices == cut.n_indices() && n_indices <= buffer.len());
         assert!(cut.vertices().len() == cut.vertex_count() && cut.error().to_bits() < u64::MAX);
+        assert!(cut.n_vertices() <= cut.vertex_count());
         match cut.to_mesh() {
             Ok(mesh) => {
                 assert!(mesh.triangles.as_flattened().iter().all(|&v| (v as usize) < mesh.positions.len()));

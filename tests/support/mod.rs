@@ -54,7 +54,11 @@ pub fn assert_levels_equal_scans(lod: &Lod, mesh: &TriangleMesh, history: &Histo
         let found = cut.to_mesh().unwrap();
         let expected = scan(mesh, history, step);
         assert_eq!(triangle_set(&found), triangle_set(&expected), "level {level}");
-        let n_alive = history.vertex_death.iter().filter(|&&death| death > step).count();
-        assert_eq!(cut.vertex_count(), n_alive, "level {level}");
+        let vertices = || (0..).zip(&history.vertex_death).filter(|&(_, &death)| death > step);
+        let is_seen = |v: u32, death: u32| levels.lifetime(history.vertex_birth(v), death).is_some();
+        let n_prefix = vertices().filter(|&(v, &death)| is_seen(v, death)).count();
+        let n_alive = vertices().filter(|&(v, _)| history.vertex_birth(v) <= step).count();
+        assert_eq!((cut.vertex_count(), cut.n_vertices()), (n_prefix, n_alive), "level {level}");
+        assert_eq!(lod.curve().nth(level as usize).unwrap().vertices as usize, n_alive, "level {level}");
     }
 }

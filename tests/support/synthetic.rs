@@ -56,6 +56,7 @@ pub fn decimate(mesh: &TriangleMesh, n_removals: usize, seed: u64) -> History<3>
         simplices: mesh.triangles.clone(),
         birth: vec![0; mesh.triangles.len()],
         death: vec![NEVER; mesh.triangles.len()],
+        vertex_birth: vec![],
         vertex_death: vec![NEVER; n_vertices],
         errors: vec![0.0],
     };
@@ -76,6 +77,48 @@ pub fn decimate(mesh: &TriangleMesh, n_removals: usize, seed: u64) -> History<3>
         });
     }
     history
+}
+
+/// Gives some vertices a successor: from a random step of its life on, a vertex is another one at a place nearby.
+pub fn succeed(mesh: &mut TriangleMesh, history: &mut History<3>, seed: u64) {
+    let mut random = Random(seed);
+    history.vertex_birth = vec![0; mesh.positions.len()];
+    for vertex in 0..mesh.positions.len() as u32 {
+        let death = history.vertex_death[vertex as usize];
+        let step = 1 + random.below(history.errors.len()) as u32;
+        if random.below(3) == 0 || step >= death.min(history.errors.len() as u32) {
+            continue;
+        }
+        let successor = mesh.positions.len() as u32;
+        mesh.positions.push(mesh.positions[vertex as usize].map(|x| x + 0.25));
+        for attribute in &mut mesh.attributes {
+            let start = vertex as usize * attribute.stride_bytes();
+            attribute.bytes.extend_from_within(start..start + attribute.stride_bytes());
+        }
+        history.vertex_birth.push(step);
+        history.vertex_death[vertex as usize] = step;
+        history.vertex_death.push(death);
+        hand_over(history, vertex, successor, step);
+    }
+}
+
+/// Cuts the lifetimes of a vertex's triangles at `step` and gives the later parts to its successor.
+fn hand_over(history: &mut History<3>, vertex: u32, successor: u32, step: u32) {
+    for id in 0..history.simplices.len() {
+        let triangle = history.simplices[id];
+        if !triangle.contains(&vertex) || history.death[id] <= step {
+            continue;
+        }
+        let later = triangle.map(|v| if v == vertex { successor } else { v });
+        if history.birth[id] >= step {
+            history.simplices[id] = later;
+        } else {
+            history.simplices.push(later);
+            history.birth.push(step);
+            history.death.push(history.death[id]);
+            history.death[id] = step;
+        }
+    }
 }
 
 /// Removes a vertex if its triangles form a small closed fan and a fan of new edges fills the hole.

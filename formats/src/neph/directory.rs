@@ -78,6 +78,11 @@ impl Directory {
                 return Err(NephError::SectionBytes { kind, found, expected });
             }
         }
+        let (kind, expected) = (SectionKind::VertexBirths, 4 * header.n_vertices);
+        let found = self.section(kind).1;
+        if found != 0 && found != expected {
+            return Err(NephError::SectionBytes { kind, found, expected });
+        }
         for (kind, largest, record_bytes) in at_most {
             let found = self.section(kind).1;
             if found > largest || !found.is_multiple_of(record_bytes) {

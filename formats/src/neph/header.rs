@@ -38,7 +38,7 @@ pub struct Header {
     pub n_corners: u32,
     /// Levels, at least one.
     pub n_levels: u32,
-    /// Vertices of level 0.
+    /// Vertices that some level has.
     pub n_vertices: u64,
     /// Stored copies of simplices.
     pub n_slots: u64,

@@ -22,7 +22,7 @@ pub enum SectionKind {
     Errors = 2,
     /// `u32` per level: simplices alive.
     SimplexCounts = 3,
-    /// `u32` per level: vertices alive.
+    /// `u32` per level: vertices that die later.
     VertexCounts = 4,
     /// `[f32; 3]` per vertex.
     Positions = 5,
@@ -42,11 +42,13 @@ pub enum SectionKind {
     AttributeValues = 12,
     /// `u64` per chunk of the body.
     Checksums = 13,
+    /// `u32` per vertex: level from which on it is there.
+    VertexBirths = 14,
 }
 
 impl SectionKind {
     /// Every kind of version 1, in the order of their numbers.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Metadata,
         Self::Errors,
         Self::SimplexCounts,
@@ -60,6 +62,7 @@ impl SectionKind {
         Self::AttributeNames,
         Self::AttributeValues,
         Self::Checksums,
+        Self::VertexBirths,
     ];
 
     /// Number in the file.
@@ -74,7 +77,10 @@ impl SectionKind {
 
     /// Whether every file has it.
     pub fn is_required(self) -> bool {
-        !matches!(self, Self::AttributeTable | Self::AttributeNames | Self::AttributeValues)
+        !matches!(
+            self,
+            Self::AttributeTable | Self::AttributeNames | Self::AttributeValues | Self::VertexBirths
+        )
     }
 }
 
