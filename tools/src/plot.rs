@@ -68,7 +68,7 @@ fn draw_bars(svg: &mut String, panel: &Panel<'_>) {
         let _ = writeln!(
             svg,
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" \
-             fill=\"rgb({red},{green},{blue})\"/>",
+             fill=\"rgb({red},{green},{blue})\" shape-rendering=\"crispEdges\"/>",
             LEFT + index as f64 * width,
             bottom - height,
         );
