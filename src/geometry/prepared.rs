@@ -93,7 +93,7 @@ impl PreparedTriangle {
 
 impl Edge {
     fn new(vector: [f64; 2]) -> Self {
-        let length = vector[0].hypot(vector[1]);
+        let length = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
         let direction = if length > 0.0 { vector.map(|component| component / length) } else { [1.0, 0.0] };
         Self { direction, length }
     }

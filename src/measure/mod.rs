@@ -14,6 +14,7 @@ mod bvh;
 mod error;
 mod histogram;
 mod pair;
+mod polygon;
 mod prove;
 mod report;
 mod samples;
@@ -166,5 +167,5 @@ pub fn sample_distances(
     let frame = Frame::new(other)?;
     let source = Surface::new(mesh, &frame, Side::Mesh)?;
     let target = Surface::new(other, &frame, Side::Reference)?;
-    Ok(sweep::face_distances(&Samples::new(source.tree.triangles(), n_samples), &target.tree))
+    Ok(sweep::face_distances(&Samples::new(source.tree.triangles(), n_samples, 0.0), &target.tree))
 }

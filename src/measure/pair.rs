@@ -81,10 +81,11 @@ pub(super) fn measure_one_sided(
 
     let segments: Vec<Segment> =
         source.edges.iter().map(|edge| edge.map(|v| source.vertices[v as usize])).collect();
-    let edges = sweep::sweep_edges(&Samples::new(&segments, options.n_samples), target);
+    let edges = sweep::sweep_edges(&Samples::new(&segments, options.n_samples, 0.0), target);
 
     let settled_sq = goal.settled_sq(vertices.farthest.or(edges.farthest).distance_sq);
-    let samples = Samples::new(source.tree.triangles(), options.n_samples);
+    // Tiles no larger than the target's triangles have good first bounds, however few the samples.
+    let samples = Samples::new(source.tree.triangles(), options.n_samples, target.triangles().len() as f64);
     let (faces, cover) = sweep::sweep_faces(&samples, target, settled_sq);
 
     let farthest = vertices.farthest.or(edges.farthest).or(faces.farthest);

@@ -7,10 +7,10 @@
 //! Quasirandom Sequences*, 2018).
 
 use crate::geometry::distance::{Segment, Triangle};
-use crate::geometry::vector::{Vector, add_scaled, cross, length, midpoint, sub};
+use crate::geometry::vector::{Vector, add_scaled, cross, length, sub};
 
 /// Samples that a tile should hold on average.
-const TILE_SAMPLES: f64 = 12.0;
+const TILE_SAMPLES: f64 = 8.0;
 
 /// Parts that the sides of one element are cut into at most.
 const MAX_PARTS: u32 = 4096;
@@ -104,20 +104,6 @@ impl Element for Segment {
     }
 }
 
-/// The four halves-as-large triangles that a triangle consists of.
-///
-/// ```text
-///         c
-///        / \        0 = a  ab ca
-///      ca---bc      1 = ab b  bc
-///      / \ / \      2 = bc ca ab
-///     a---ab--b     3 = ca bc c
-/// ```
-pub(super) fn quarter(&[a, b, c]: &Triangle) -> [Triangle; 4] {
-    let (ab, bc, ca) = (midpoint(a, b), midpoint(b, c), midpoint(c, a));
-    [[a, ab, ca], [ab, b, bc], [bc, ca, ab], [ca, bc, c]]
-}
-
 /// The samples of all elements of one kind.
 pub(super) struct Samples<'a, E> {
     elements: &'a [E],
@@ -139,9 +125,10 @@ pub(super) struct Tile<E> {
 }
 
 impl<'a, E: Element> Samples<'a, E> {
-    /// Spreads `n_samples` over the elements; none if they have no size.
-    pub(super) fn new(elements: &'a [E], n_samples: usize) -> Self {
-        let samples = Self::cut(elements, n_samples as f64 / TILE_SAMPLES);
+    /// Spreads `n_samples` over the elements, none if they have no size, which are cut into `n_tiles` tiles or as many
+    /// as suit the samples.
+    pub(super) fn new(elements: &'a [E], n_samples: usize, n_tiles: f64) -> Self {
+        let samples = Self::cut(elements, n_tiles.max(n_samples as f64 / TILE_SAMPLES));
         let n_samples = if samples.total_size() > 0.0 { n_samples } else { 0 };
         Self { n_samples, ..samples }
     }
@@ -207,7 +194,7 @@ impl<E: Element> Tile<E> {
     /// The samples' positions.
     pub(super) fn points(&self) -> impl Iterator<Item = Vector> {
         self.samples.clone().map(|i| {
-            let [u, v] = STEPS.map(|step| (0.5 + i as f64 * step).fract());
+            let [u, v] = STEPS.map(|step| fraction(0.5 + i as f64 * step));
             self.corners.at(u, v)
         })
     }
@@ -220,6 +207,12 @@ impl<E: Element> Tile<E> {
 )]
 fn round(x: f64) -> u32 {
     x.round() as u32
+}
+
+/// What follows the point of a number that is not negative. `f64::fract` would call a function for each.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "as many samples as fit a u64")]
+fn fraction(x: f64) -> f64 {
+    x - (x as u64) as f64
 }
 
 /// Smallest integer not below a number; 0 for NaN.
@@ -260,7 +253,7 @@ mod tests {
     #[test]
     fn every_region_gets_its_share() {
         for n_samples in [1, 2, 10, 1000, 54_321] {
-            let samples = Samples::new(&TRIANGLES, n_samples);
+            let samples = Samples::new(&TRIANGLES, n_samples, 0.0);
             let points: Vec<Vector> = samples
                 .tiles(0..samples.n_tiles())
                 .flat_map(|tile| tile.points().collect::<Vec<_>>())
@@ -277,7 +270,7 @@ mod tests {
 
     #[test]
     fn moments_of_a_triangle() {
-        let samples = Samples::new(&TRIANGLES[..1], 100_000);
+        let samples = Samples::new(&TRIANGLES[..1], 100_000, 0.0);
         let x: Vec<f64> = samples
             .tiles(0..samples.n_tiles())
             .flat_map(|tile| tile.points().collect::<Vec<_>>())

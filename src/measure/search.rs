@@ -62,15 +62,22 @@ impl Tree {
         &self.triangles
     }
 
+    /// Squared distance of a point from one triangle.
+    #[inline(always)]
+    pub(super) fn distance_sq(&self, p: Vector, triangle: u32) -> f64 {
+        self.prepared[triangle as usize].distance_sq(p)
+    }
+
+    /// The bound that one triangle gives: the largest distance from a corner.
+    pub(super) fn bound(&self, corners: &[Vector], triangle: u32) -> Found {
+        let distances_sq = corners.iter().map(|&corner| self.distance_sq(corner, triangle));
+        Found { distance_sq: distances_sq.fold(0.0, larger), triangle }
+    }
+
     /// The triangle whose largest distance from one of the corners is least.
     ///
     /// The closer `hint` is to it, the less is visited. About 0.2 us for a point with a good hint.
-    pub(super) fn search<const CORNERS: usize>(
-        &self,
-        corners: &[Vector; CORNERS],
-        hint: u32,
-        stack: &mut Stack,
-    ) -> Found {
+    pub(super) fn search(&self, corners: &[Vector], hint: u32, stack: &mut Stack) -> Found {
         let mut best = Found { distance_sq: f64::INFINITY, triangle: hint };
         self.improve(&mut best, corners, hint);
         let stack = &mut stack.nodes;
@@ -105,7 +112,7 @@ impl Tree {
 
     /// Lets a triangle replace the best one if it bounds all corners better.
     #[inline(always)]
-    fn improve<const CORNERS: usize>(&self, best: &mut Found, corners: &[Vector; CORNERS], triangle: u32) {
+    fn improve(&self, best: &mut Found, corners: &[Vector], triangle: u32) {
         let candidate = &self.prepared[triangle as usize];
         let mut distance_sq = 0.0;
         for &corner in corners {

@@ -119,11 +119,7 @@ pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settle
         for tile in samples.tiles(tiles) {
             walk.visit(&tile, target, |point, distance_sq| tally.count(point, distance_sq));
             for (corners, bound) in walk.batch.quarters() {
-                if bound.distance_sq > settled_sq {
-                    cover.open.push(Piece { corners, bound });
-                } else {
-                    cover.settled_sq = cover.settled_sq.max(bound.distance_sq);
-                }
+                cover.add(Piece::new(corners, bound), settled_sq);
             }
         }
         (tally, cover)
@@ -132,8 +128,7 @@ pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settle
     let mut all = Cover::default();
     for (tally, cover) in chunks {
         total = total.merge(tally);
-        all.open.extend(cover.open);
-        all.settled_sq = all.settled_sq.max(cover.settled_sq);
+        all.merge(cover);
     }
     (total, all)
 }

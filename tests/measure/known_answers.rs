@@ -197,7 +197,8 @@ fn scales_that_differ_wildly() {
 fn rounding_widens_the_bracket() {
     let plane = grid(3, [1.0, 1.0], |_, _| 0.0);
     let rounded = TriangleMesh { rounding: 0.125, ..grid(4, [1.0, 1.0], |_, _| 1.0) };
-    let distance = measure(&plane, &rounded, &MeasureOptions::default()).unwrap();
+    let options = MeasureOptions { n_samples: 1000, tolerance: 1e-10, ..MeasureOptions::default() };
+    let distance = measure(&plane, &rounded, &options).unwrap();
     assert!((distance.lower_bound - 0.875).abs() < 1e-9 && (distance.upper_bound - 1.125).abs() < 1e-9);
     assert!(distance.is_within_tolerance);
 }
