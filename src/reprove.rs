@@ -87,7 +87,9 @@ impl<'a> ErrorTable<'a> {
             return Ok(());
         }
         let stated = cut.error();
-        match check_within(&self.input, &cut.to_mesh()?, stated, MAX_PIECES)? {
+        // The level is what the file says; only the input was rounded on its way there.
+        let mesh = TriangleMesh { rounding: 0.0, ..cut.to_mesh()? };
+        match check_within(&self.input, &mesh, stated, MAX_PIECES)? {
             Verdict::Within => Ok(()),
             Verdict::Beyond { distance, .. } => Err(ReproveError::Exceeded { level, stated, distance }),
             Verdict::Undecided { upper_bound } => Err(ReproveError::Undecided { level, stated, upper_bound }),

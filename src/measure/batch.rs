@@ -12,8 +12,18 @@ pub(super) const BATCH_LEN: usize = 32;
 /// Points are compared in groups of so many.
 const GROUP_LEN: usize = 4;
 
-/// Triangles that a triangular tile is bounded by, one for each of its quarters.
-pub(super) type QuarterBounds = [Found; 4];
+/// Corners of the quarters of a triangular tile.
+const N_CORNERS: usize = 6;
+
+/// A quarter of a triangular tile.
+pub(super) struct Quarter {
+    /// Its corners.
+    pub(super) corners: Triangle,
+    /// The triangle whose largest distance from the corners is least of those that were compared.
+    pub(super) bound: Found,
+    /// The triangle nearest to each corner.
+    pub(super) nearest: [Found; 3],
+}
 
 /// Corners of the quarters of a triangular tile, as places in a batch: the tile's corners are 0 to 2, and corner `3 + i`
 /// is the middle of the side opposite to corner `i`.
@@ -31,7 +41,10 @@ pub(super) struct Batch {
     len: usize,
     padded_len: usize,
     region: Bounds,
-    bounds: QuarterBounds,
+    /// The triangles that bound the quarters.
+    bounds: [Found; 4],
+    /// The triangles nearest to the corners of the quarters.
+    nearest: [Found; N_CORNERS],
     reach_sq: f64,
     /// A triangle that is nearest to the last point.
     hint: u32,
@@ -48,6 +61,7 @@ impl Batch {
             padded_len: 0,
             region: Bounds::EMPTY,
             bounds: [Found::NOTHING; 4],
+            nearest: [Found::NOTHING; N_CORNERS],
             reach_sq: f64::INFINITY,
             hint: 0,
         }
@@ -58,6 +72,7 @@ impl Batch {
     pub(super) fn fill(&mut self, tile: &[Vector], points: &mut impl Iterator<Item = Vector>) {
         self.region = Bounds::around(tile);
         self.bounds = [Found::NOTHING; 4];
+        self.nearest = [Found::NOTHING; N_CORNERS];
         self.reach_sq = f64::INFINITY;
         self.len = 0;
         if let &[a, b, c] = tile {
@@ -96,12 +111,14 @@ impl Batch {
         &self.region
     }
 
-    /// The quarters of a triangular tile, each with the triangle whose largest distance from its corners is least of
-    /// those that were compared; nothing for a segment.
-    pub(super) fn quarters(&self) -> impl Iterator<Item = (Triangle, Found)> {
+    /// The quarters of a triangular tile; nothing for a segment.
+    pub(super) fn quarters(&self) -> impl Iterator<Item = Quarter> {
         let n_quarters = if self.n_corners == 0 { 0 } else { QUARTERS.len() };
-        let corners = QUARTERS.map(|places| places.map(|place| self.point(place)));
-        corners.into_iter().zip(self.bounds).take(n_quarters)
+        QUARTERS.into_iter().zip(self.bounds).take(n_quarters).map(|(places, bound)| Quarter {
+            corners: places.map(|place| self.point(place)),
+            bound,
+            nearest: places.map(|place| self.nearest[place]),
+        })
     }
 
     /// A triangle that is nearest to one of the points: a good hint for a tile nearby.
@@ -142,6 +159,11 @@ impl Batch {
             self.hint = id;
         }
         if self.n_corners > 0 {
+            for (nearest, &distance_sq) in self.nearest.iter_mut().zip(&distances_sq) {
+                if distance_sq < nearest.distance_sq {
+                    *nearest = Found { distance_sq, triangle: id };
+                }
+            }
             for (bound, places) in self.bounds.iter_mut().zip(QUARTERS) {
                 let distance_sq = places.map(|place| distances_sq[place]).into_iter().fold(0.0, larger);
                 if distance_sq < bound.distance_sq {

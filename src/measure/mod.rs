@@ -25,7 +25,7 @@ mod sweep;
 pub use self::error::{MeasureError, Side};
 pub use self::histogram::Histogram;
 use self::pair::{Pair, measure_one_sided};
-use self::prove::{Bracket, Goal};
+use self::prove::{Bracket, Goal, Parts};
 pub use self::report::{Distance, MeasureOptions, OneSided, Verdict};
 use self::samples::Samples;
 use self::surface::{Frame, Surface};
@@ -125,8 +125,9 @@ pub fn check_within(
         let mut bracket = Bracket { farthest, upper_sq: f64::INFINITY, n_pieces: 0 };
         if farthest.distance_sq.sqrt() <= limit {
             let tiles = Samples::cut(source.tree.triangles(), target.triangles().len() as f64);
-            let (_, cover) = sweep::sweep_faces(&tiles, target, goal.settled_sq(0.0));
-            bracket = prove::refine(cover, farthest, target, goal, max_pieces);
+            let (_, parts) = sweep::sweep_faces(&tiles, target, goal.settled_sq(0.0));
+            let farthest_seen = farthest.or(parts.farthest);
+            bracket = prove::refine(Parts { farthest: farthest_seen, ..parts }, target, goal, max_pieces);
             farthest = bracket.farthest;
         }
         let distance = farthest.distance_sq.sqrt();

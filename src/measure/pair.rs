@@ -1,7 +1,7 @@
 //! Two surfaces side by side, and the measurement from one to the other.
 
 use super::error::{MeasureError, Side};
-use super::prove::{self, Bracket, Goal};
+use super::prove::{self, Bracket, Goal, Parts};
 use super::report::{MeasureOptions, OneSided};
 use super::samples::Samples;
 use super::search::Tree;
@@ -32,8 +32,11 @@ impl Pair {
     /// [`MeasureError`] if one of them is no surface.
     pub(super) fn new(reference: &TriangleMesh, mesh: &TriangleMesh) -> Result<Self, MeasureError> {
         let frame = Frame::new(reference)?;
-        let surfaces =
-            [Surface::new(reference, &frame, Side::Reference)?, Surface::new(mesh, &frame, Side::Mesh)?];
+        let (first, second) = rayon::join(
+            || Surface::new(reference, &frame, Side::Reference),
+            || Surface::new(mesh, &frame, Side::Mesh),
+        );
+        let surfaces = [first?, second?];
         let uncertainty = Uncertainty {
             slack: SLACK * surfaces[0].magnitude.max(surfaces[1].magnitude),
             rounding: reference.rounding + mesh.rounding,
@@ -86,10 +89,10 @@ pub(super) fn measure_one_sided(
     let settled_sq = goal.settled_sq(vertices.farthest.or(edges.farthest).distance_sq);
     // Tiles no larger than the target's triangles have good first bounds, however few the samples.
     let samples = Samples::new(source.tree.triangles(), options.n_samples, target.triangles().len() as f64);
-    let (faces, cover) = sweep::sweep_faces(&samples, target, settled_sq);
+    let (faces, parts) = sweep::sweep_faces(&samples, target, settled_sq);
 
-    let farthest = vertices.farthest.or(edges.farthest).or(faces.farthest);
-    let bracket = prove::refine(cover, farthest, target, goal, options.max_pieces);
+    let farthest = vertices.farthest.or(edges.farthest).or(faces.farthest).or(parts.farthest);
+    let bracket = prove::refine(Parts { farthest, ..parts }, target, goal, options.max_pieces);
     summarize([vertices, edges, faces], &bracket, uncertainty, options)
 }
 

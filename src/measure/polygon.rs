@@ -9,7 +9,7 @@ const MAX_CORNERS: usize = 8;
 /// Steps at most towards the point in which an edge crosses a line.
 const MAX_STEPS: usize = 10;
 
-/// Part of the range at which a value counts as zero.
+/// Part of the range at which the root of a value counts as zero in any case.
 const CLOSE: f64 = 1e-5;
 
 /// A convex polygon in the plane of a triangle.
@@ -35,9 +35,10 @@ impl Polygon {
     }
 
     /// Cuts the polygon by the straight line through two points at which a continuous function, best one that grows like
-    /// a signed square, changes its sign along the boundary: the part in which the first corner above zero lies, and the other. Nothing if the function does not
-    /// change its sign, or if a part would have too many corners.
-    pub(super) fn cut_at_sign_change(&self, f: impl Fn(Vector) -> f64) -> Option<[Self; 2]> {
+    /// a signed square, changes its sign along the boundary: the part in which the first corner above zero lies, and the
+    /// other. Values within `close` count as zero. Nothing if the function does not change its sign, or if a part would
+    /// have too many corners.
+    pub(super) fn cut_at_sign_change(&self, close: f64, f: impl Fn(Vector) -> f64) -> Option<[Self; 2]> {
         let mut values = [0.0; MAX_CORNERS];
         for (value, &corner) in values.iter_mut().zip(self.corners()) {
             *value = f(corner);
@@ -50,8 +51,9 @@ impl Polygon {
         if n_between.max(self.len - n_between) + 2 > MAX_CORNERS {
             return None;
         }
-        let [p, q] = [first, second]
-            .map(|i| crossing([self.corners[i], self.corners[next(i)]], [values[i], values[next(i)]], &f));
+        let [p, q] = [first, second].map(|i| {
+            crossing([self.corners[i], self.corners[next(i)]], [values[i], values[next(i)]], close, &f)
+        });
         let mut parts = [Self { len: 0, ..*self }; 2];
         parts[0].push(p);
         (first + 1..=second).for_each(|i| parts[0].push(self.corners[i]));
@@ -80,7 +82,7 @@ impl Polygon {
             let along = distance_sq(p, ends[0]) - distance_sq(p, ends[1]);
             along * along.abs()
         };
-        self.cut_at_sign_change(f).or_else(|| self.cut_off_ear())
+        self.cut_at_sign_change(0.0, f).or_else(|| self.cut_off_ear())
     }
 
     /// Cuts half of the corners off: what is left to do where a part would have too many.
@@ -102,7 +104,7 @@ impl Polygon {
 
 /// A point of a segment near which a function changes its sign, by regula falsi with the value at the end that stays
 /// halved (the Illinois method). Any point will do; its rounding moves both sides of the cut alike.
-fn crossing([a, b]: Segment, values: [f64; 2], f: impl Fn(Vector) -> f64) -> Vector {
+fn crossing([a, b]: Segment, values: [f64; 2], close: f64, f: impl Fn(Vector) -> f64) -> Vector {
     // Differences of squared distances change sign like their signed square roots, which are closer to linear.
     let root = |value: f64| value.signum() * value.abs().sqrt();
     let at = |t: f64| add_scaled(a, t, sub(b, a));
@@ -110,8 +112,9 @@ fn crossing([a, b]: Segment, values: [f64; 2], f: impl Fn(Vector) -> f64) -> Vec
     let mut t = 0.5;
     for _ in 0..MAX_STEPS {
         t = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-        let value = root(f(at(t)));
-        if value.abs() <= CLOSE * (low.1 - high.1).abs() {
+        let square = f(at(t));
+        let value = root(square);
+        if square.abs() <= close || value.abs() <= CLOSE * (low.1 - high.1).abs() {
             break;
         }
         if (value > 0.0) == (low.1 > 0.0) {
@@ -142,13 +145,13 @@ mod tests {
     fn parts_lie_on_their_sides_and_make_up_the_whole() {
         for cut_at in [0.5, 1.0, 2.5, 3.9] {
             let [above, below] = Polygon::from(TRIANGLE)
-                .cut_at_sign_change(|p| (p[0] - cut_at) * (p[0] - cut_at).abs())
+                .cut_at_sign_change(0.0, |p| (p[0] - cut_at) * (p[0] - cut_at).abs())
                 .unwrap();
             assert!(above.corners().iter().all(|p| p[0] >= cut_at - 1e-4));
             assert!(below.corners().iter().all(|p| p[0] <= cut_at + 1e-4));
             assert!((area(&above) + area(&below) - 6.0).abs() < 1e-12);
         }
-        assert!(Polygon::from(TRIANGLE).cut_at_sign_change(|p| p[0] + 1.0).is_none());
+        assert!(Polygon::from(TRIANGLE).cut_at_sign_change(0.0, |p| p[0] + 1.0).is_none());
     }
 
     #[test]

@@ -16,10 +16,10 @@
 
 use rayon::prelude::*;
 
+use super::batch::Quarter;
 use super::polygon::Polygon;
 use super::search::{Found, Stack, Tree};
 use super::sweep::Farthest;
-use crate::geometry::distance::Triangle;
 use crate::geometry::vector::Vector;
 
 /// Rounds at most: pieces are then far below the rounding error of their corners.
@@ -28,6 +28,13 @@ const MAX_ROUNDS: usize = 128;
 /// Every so many cuts a piece is halved, and the best triangles for its halves are searched for in the whole tree: where
 /// distances change along a piece more than from triangle to triangle, only small pieces have good bounds.
 const CUTS_PER_BISECTION: u32 = 6;
+
+/// Cuts at most that a quarter of a tile gets at once: most need one or two.
+const EARLY_CUTS: usize = 4;
+
+/// Squared distances from two triangles that differ by less than this part of the settled bound, squared, count as
+/// equal: a cut need not be better than what it is to prove.
+const CLOSE: f64 = 0.2;
 
 /// Pieces that one thread takes at a time.
 const PIECES_PER_CHUNK: usize = 64;
@@ -40,13 +47,6 @@ pub(super) struct Piece {
     bound: Found,
     /// Cuts that made it.
     n_cuts: u32,
-}
-
-impl Piece {
-    /// A piece that nothing was cut off yet, `bound` being the bound of its corners.
-    pub(super) fn new(triangle: Triangle, bound: Found) -> Self {
-        Self { polygon: Polygon::from(triangle), bound, n_cuts: 0 }
-    }
 }
 
 /// A whole surface: pieces that are settled, of which only the largest bound is kept, and pieces that are open.
@@ -102,13 +102,11 @@ impl Goal {
 
 /// Cuts the open pieces of a surface until the goal is reached or `max_pieces` have been bounded.
 pub(super) fn refine(
-    mut cover: Cover,
-    mut farthest: Farthest,
+    Parts { mut cover, mut n_pieces, mut farthest }: Parts,
     target: &Tree,
     goal: Goal,
     max_pieces: usize,
 ) -> Bracket {
-    let mut n_pieces = cover.open.len();
     for _ in 0..MAX_ROUNDS {
         let settled_sq = goal.settled_sq(farthest.distance_sq);
         cover.settle(settled_sq);
@@ -119,11 +117,10 @@ pub(super) fn refine(
         let chunks: Vec<Parts> = cover
             .open
             .par_chunks(PIECES_PER_CHUNK)
-            .map_init(Stack::default, |stack, pieces| {
-                let parts = Parts { farthest, ..Parts::default() };
-                let mut cutter = Cutter { target, settled_sq, stack, parts };
+            .map(|pieces| {
+                let mut cutter = Cutter::new(target, settled_sq);
                 pieces.iter().for_each(|piece| cutter.cut(piece));
-                cutter.parts
+                cutter.into_parts()
             })
             .collect();
         cover.open.clear();
@@ -166,24 +163,65 @@ impl Cover {
     }
 }
 
+/// What pieces were cut into.
+#[derive(Default)]
+pub(super) struct Parts {
+    /// The pieces.
+    pub(super) cover: Cover,
+    /// How many were bounded.
+    pub(super) n_pieces: usize,
+    /// The farthest of the points that were probed.
+    pub(super) farthest: Farthest,
+}
+
+impl Parts {
+    /// Takes in other parts.
+    pub(super) fn merge(&mut self, other: Self) {
+        self.cover.merge(other.cover);
+        self.n_pieces += other.n_pieces;
+        self.farthest = self.farthest.or(other.farthest);
+    }
+}
+
 /// Cuts pieces one after the other.
-struct Cutter<'a> {
+pub(super) struct Cutter<'a> {
     target: &'a Tree,
     settled_sq: f64,
-    stack: &'a mut Stack,
+    stack: Stack,
     parts: Parts,
 }
 
-/// What pieces were cut into.
-#[derive(Default)]
-struct Parts {
-    cover: Cover,
-    n_pieces: usize,
-    /// The farthest of the points that were probed.
-    farthest: Farthest,
-}
+impl<'a> Cutter<'a> {
+    /// Cuts what is not within a bound.
+    pub(super) fn new(target: &'a Tree, settled_sq: f64) -> Self {
+        Self { target, settled_sq, stack: Stack::default(), parts: Parts::default() }
+    }
 
-impl Cutter<'_> {
+    /// All that was cut.
+    pub(super) fn into_parts(self) -> Parts {
+        self.parts
+    }
+
+    /// Adds a quarter of a tile, or its parts after a few cuts, which need not be kept for another round then.
+    pub(super) fn settle_or_cut(&mut self, quarter: &Quarter) {
+        let piece = Piece { polygon: Polygon::from(quarter.corners), bound: quarter.bound, n_cuts: 0 };
+        if quarter.bound.distance_sq <= self.settled_sq {
+            self.add(piece);
+            return;
+        }
+        let bottom = self.parts.cover.open.len();
+        if !self.cut_towards(&piece, quarter.nearest[self.worst_corner(&piece)].triangle) {
+            self.bisect(&piece);
+        }
+        for _ in 1..EARLY_CUTS {
+            if self.parts.cover.open.len() == bottom {
+                return;
+            }
+            let piece = self.parts.cover.open.swap_remove(bottom);
+            self.cut(&piece);
+        }
+    }
+
     /// Adds the parts of a piece.
     fn cut(&mut self, piece: &Piece) {
         if (piece.n_cuts + 1).is_multiple_of(CUTS_PER_BISECTION) || !self.cut_between(piece) {
@@ -194,18 +232,22 @@ impl Cutter<'_> {
     /// Cuts along the points that are equally far from the bounding triangle and from the one nearest to the worst
     /// corner; whether there are such points.
     fn cut_between(&mut self, piece: &Piece) -> bool {
-        let target = self.target;
         let bounding = piece.bound.triangle;
-        let mut worst = Farthest { distance_sq: -1.0, point: [0.0; 3] };
-        for &point in piece.polygon.corners() {
-            worst = worst.or(Farthest { distance_sq: target.distance_sq(point, bounding), point });
-        }
-        let nearest = self.probe(worst.point, bounding);
+        let corners = piece.polygon.corners();
+        let worst = self.worst_corner(piece);
+        let nearest = self.probe(corners[worst], bounding);
+        self.cut_towards(piece, nearest)
+    }
+
+    /// Cuts along the points that are equally far from the bounding triangle and from another; whether there are such
+    /// points.
+    fn cut_towards(&mut self, piece: &Piece, nearest: u32) -> bool {
+        let (target, bounding) = (self.target, piece.bound.triangle);
         if nearest == bounding {
             return false;
         }
         let excess = |p: Vector| target.distance_sq(p, bounding) - target.distance_sq(p, nearest);
-        let Some([beyond, within]) = piece.polygon.cut_at_sign_change(excess) else {
+        let Some([beyond, within]) = piece.polygon.cut_at_sign_change(CLOSE * self.settled_sq, excess) else {
             return false;
         };
         for (polygon, owner) in [(beyond, nearest), (within, bounding)] {
@@ -219,15 +261,22 @@ impl Cutter<'_> {
     fn bisect(&mut self, piece: &Piece) {
         let halves = piece.polygon.bisect();
         for polygon in halves.iter().flatten().chain(halves.is_none().then_some(&piece.polygon)) {
-            let bound = self.target.search(polygon.corners(), piece.bound.triangle, self.stack);
+            let bound = self.target.search(polygon.corners(), piece.bound.triangle, &mut self.stack);
             self.probe(polygon.corners()[0], bound.triangle);
             self.add(Piece { polygon: *polygon, bound, n_cuts: piece.n_cuts + 1 });
         }
     }
 
+    /// Place of the corner that is farthest from the bounding triangle.
+    fn worst_corner(&self, piece: &Piece) -> usize {
+        let distance_sq = |&corner: &Vector| self.target.distance_sq(corner, piece.bound.triangle);
+        let distances_sq = piece.polygon.corners().iter().map(distance_sq).enumerate();
+        distances_sq.fold((0, -1.0), |worst, next| if next.1 > worst.1 { next } else { worst }).0
+    }
+
     /// Finds the triangle nearest to a point of the source and notes its distance.
     fn probe(&mut self, point: Vector, hint: u32) -> u32 {
-        let found = self.target.search(&[point], hint, self.stack);
+        let found = self.target.search(&[point], hint, &mut self.stack);
         let probed = Farthest { distance_sq: found.distance_sq, point };
         self.parts.farthest = self.parts.farthest.or(probed);
         found.triangle

@@ -9,7 +9,8 @@ pub struct MeasureOptions {
     pub n_samples: usize,
     /// Width of the proven bracket that is aimed at, as a part of the distance: `0.01` is one percent.
     pub tolerance: f64,
-    /// Pieces of one surface that the proof may look at before it gives up and reports the bracket it has.
+    /// Pieces of one surface that the proof may look at, beside a few of each tile of samples, before it gives up and
+    /// reports the bracket it has.
     pub max_pieces: usize,
 }
 

@@ -10,7 +10,7 @@ use crate::geometry::distance::{Segment, Triangle};
 use crate::geometry::vector::{Vector, add_scaled, cross, length, sub};
 
 /// Samples that a tile should hold on average.
-const TILE_SAMPLES: f64 = 8.0;
+const TILE_SAMPLES: f64 = 10.0;
 
 /// Parts that the sides of one element are cut into at most.
 const MAX_PARTS: u32 = 4096;

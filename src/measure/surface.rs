@@ -98,10 +98,16 @@ impl Surface {
         let (nodes, order) = bvh::build(&unordered);
         let triangles: Vec<Triangle> = order.iter().map(|&t| unordered[t as usize]).collect();
         let corners = order.iter().map(|&t| mesh.triangles[t as usize]);
-        let (vertex_ids, triangle_vertices) = number_by_use(corners, mesh.positions.len());
-        let vertices: Vec<Vector> = vertex_ids.iter().map(|&v| place(v)).collect();
-        let edges = collect_edges(&triangle_vertices, vertices.len());
-        Ok(Self { tree: Tree::new(nodes, triangles), vertices, edges, magnitude })
+        let (tree, (vertices, edges)) = rayon::join(
+            || Tree::new(nodes, triangles),
+            || {
+                let (vertex_ids, triangle_vertices) = number_by_use(corners, mesh.positions.len());
+                let vertices: Vec<Vector> = vertex_ids.iter().map(|&v| place(v)).collect();
+                let edges = collect_edges(&triangle_vertices, vertices.len());
+                (vertices, edges)
+            },
+        );
+        Ok(Self { tree, vertices, edges, magnitude })
     }
 }
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::batch::Batch;
 use super::bvh::Bounds;
-use super::prove::{Cover, Piece};
+use super::prove::{Cutter, Parts};
 use super::samples::{Element, Samples, Tile};
 use super::search::{Front, Stack, Tree};
 use crate::geometry::distance::{Segment, Triangle};
@@ -111,24 +111,22 @@ pub(super) fn sweep_edges(samples: &Samples<'_, Segment>, target: &Tree) -> Tall
     .fold(Tally::default(), Tally::merge)
 }
 
-/// The tally of all samples inside triangles, and the first bounds of all tiles: those above `settled_sq` are open.
-pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settled_sq: f64) -> (Tally, Cover) {
+/// The tally of all samples inside triangles, and what is proven of all tiles: those above `settled_sq` are open.
+pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settled_sq: f64) -> (Tally, Parts) {
     let chunks = sweep(samples, target, |walk, tiles| {
         let mut tally = Tally::default();
-        let mut cover = Cover::default();
+        let mut cutter = Cutter::new(target, settled_sq);
         for tile in samples.tiles(tiles) {
             walk.visit(&tile, target, |point, distance_sq| tally.count(point, distance_sq));
-            for (corners, bound) in walk.batch.quarters() {
-                cover.add(Piece::new(corners, bound), settled_sq);
-            }
+            walk.batch.quarters().for_each(|quarter| cutter.settle_or_cut(&quarter));
         }
-        (tally, cover)
+        (tally, cutter.into_parts())
     });
     let mut total = Tally::default();
-    let mut all = Cover::default();
-    for (tally, cover) in chunks {
+    let mut all = Parts::default();
+    for (tally, parts) in chunks {
         total = total.merge(tally);
-        all.merge(cover);
+        all.merge(parts);
     }
     (total, all)
 }

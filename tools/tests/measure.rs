@@ -75,9 +75,10 @@ fn colours_and_histogram_are_written() {
 #[test]
 fn a_bracket_that_stays_wide_is_told() {
     let place = Workplace::new();
-    place.done("generate cosine --side 30 -o fine.ply");
-    place.done("generate cosine --side 12 -o coarse.ply");
-    let run = place.run("measure fine.ply coarse.ply --samples 10 --tolerance 1e-9 --max-pieces 10 --json");
+    // The farthest points of the one lie midway between the parts of the other, at no corner.
+    place.write("apart.off", "OFF\n6 2 0\n0 0 0\n0 3 0\n0 0 3\n7 0 0\n7 2 0\n7 0 2\n3 0 1 2\n3 3 4 5\n");
+    place.write("between.off", "OFF\n3 1 0\n1 0 0\n6 0 1\n5 1 0\n3 0 1 2\n");
+    let run = place.run("measure apart.off between.off --samples 10 --tolerance 1e-6 --max-pieces 10 --json");
     assert_eq!(run.status, 0);
     assert!(run.stderr.contains("wider"), "{}", run.stderr);
     assert!(run.stdout.contains("\"is_within_tolerance\":false"));

@@ -78,8 +78,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         files::check_output(plot, &inputs)?;
     }
     arguments.threads.run(|| {
-        let (reference, _) = files::read_mesh(&arguments.reference)?;
-        let (mesh, _) = files::read_mesh(&arguments.mesh)?;
+        let (reference, mesh) =
+            rayon::join(|| files::read_mesh(&arguments.reference), || files::read_mesh(&arguments.mesh));
+        let ((reference, _), (mesh, _)) = (reference?, mesh?);
         interrupt::check()?;
         let failed =
             |source| Failure::file(format!("{} and {}", inputs[0].display(), inputs[1].display()), source);
