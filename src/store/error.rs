@@ -1,5 +1,6 @@
 //! What can go wrong while writing, opening and verifying.
 
+use super::compact::CompactFault;
 use crate::history::HistoryError;
 use crate::tree::{TreeError, TreeFault};
 use nephrite_formats::neph::NephError;
@@ -124,6 +125,9 @@ pub enum OpenError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
+    /// The compact form of slots contradicts itself.
+    #[error(transparent)]
+    Compact(#[from] CompactFault),
     /// The head is damaged.
     #[error("header or directory are damaged")]
     Head(#[from] NephError),

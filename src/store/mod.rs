@@ -9,6 +9,7 @@
 mod arrange;
 mod attributes;
 mod body;
+mod compact;
 mod error;
 mod integrity;
 mod map;
@@ -20,6 +21,7 @@ mod publish;
 mod verify;
 mod write;
 
+pub use compact::CompactFault;
 pub use error::{OpenError, VerifyError, WriteError};
 pub use metadata::{Metadata, Provenance};
 pub use opened::{AttributeView, Opened};

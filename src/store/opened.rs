@@ -1,5 +1,6 @@
 //! An opened file: its bytes, and the sections that its checked head describes.
 
+use super::compact::{CompactSections, Expanded, Narrow};
 use super::memory::{Memory, OwnedBytes};
 use super::{Metadata, OpenError};
 use crate::tree::{Run, Tree};
@@ -17,6 +18,8 @@ pub struct Opened {
     memory: Memory,
     directory: Directory,
     attributes: Vec<AttributeEntry>,
+    /// The slots of a file that holds them in the compact form.
+    expanded: Option<Expanded>,
 }
 
 /// A per-vertex attribute of an opened file.
@@ -58,18 +61,19 @@ impl Opened {
         Self::new(Memory::Owned(OwnedBytes::copy_of(bytes)?))
     }
 
-    /// Touches the first 16 KiB and the attribute table.
+    /// Touches the first 16 KiB and the attribute table, and the slots where they are in the compact form.
     pub(super) fn new(memory: Memory) -> Result<Self, OpenError> {
         let bytes = memory.bytes();
         let head = &bytes[..bytes.len().min(MAX_HEAD_BYTES)];
         let directory = Directory::read(head, bytes.len() as u64)?;
-        let mut opened = Self { memory, directory, attributes: Vec::new() };
+        let mut opened = Self { memory, directory, attributes: Vec::new(), expanded: None };
         opened.attributes = read_attributes(
             opened.section(SectionKind::AttributeTable),
             opened.section(SectionKind::AttributeNames),
             opened.header().n_vertices,
             opened.directory.section(SectionKind::AttributeValues).1,
         )?;
+        opened.expanded = opened.compact_sections().map(CompactSections::expand).transpose()?;
         Ok(opened)
     }
 
@@ -115,12 +119,32 @@ impl Opened {
 
     /// Vertex indices of all slots, `n_corners` each.
     pub fn simplices(&self) -> &[u32] {
-        self.section(SectionKind::Simplices)
+        match &self.expanded {
+            Some(expanded) => &expanded.simplices,
+            None => self.section(SectionKind::Simplices),
+        }
     }
 
     /// The stamp of each slot that its place does not give.
     pub fn stamps(&self) -> &[u32] {
-        self.section(SectionKind::Stamps)
+        match &self.expanded {
+            Some(expanded) => &expanded.stamps,
+            None => self.section(SectionKind::Stamps),
+        }
+    }
+
+    /// The slots in the compact form, if that is the file's.
+    pub(super) fn compact_sections(&self) -> Option<CompactSections<'_>> {
+        let header = self.header();
+        self.directory.is_compact().then(|| CompactSections {
+            n_corners: header.n_corners as usize,
+            // The head was refused if the slots exceeded 32 bits.
+            n_slots: usize::try_from(header.n_slots).unwrap_or(0),
+            distinct: Narrow::indices(self.section(SectionKind::DistinctSimplices), header.n_vertices),
+            repeat_bits: self.section(SectionKind::RepeatBits),
+            repeat_sources: self.section(SectionKind::RepeatSources),
+            stamps: Narrow::stamps(self.section(SectionKind::CompactStamps), header.n_levels),
+        })
     }
 
     /// The interval tree.

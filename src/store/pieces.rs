@@ -53,10 +53,19 @@ impl<'a, const CORNERS: usize> Pieces<'a, CORNERS> {
         u32::try_from(n_ids).map_err(|_| too_many.into())
     }
 
-    /// Vertices of a simplex, as the history names them.
+    /// Simplices of the history.
+    pub(super) fn n_simplices(&self) -> usize {
+        self.history.simplices.len()
+    }
+
+    /// The simplex of a piece.
+    pub(super) fn simplex(&self, id: u32) -> u32 {
+        self.cut.as_ref().map_or(id, |cut| cut[id as usize].0)
+    }
+
+    /// Its vertices, as the history names them.
     pub(super) fn vertices(&self, id: u32) -> [u32; CORNERS] {
-        let simplex = self.cut.as_ref().map_or(id, |cut| cut[id as usize].0);
-        self.history.simplices[simplex as usize]
+        self.history.simplices[self.simplex(id) as usize]
     }
 
     /// Its lifetime, or `None` when no level sees it.

@@ -1,5 +1,6 @@
 //! Verifying: every checksum and every invariant of the format.
 
+use super::compact::CompactSections;
 use super::integrity::check_integrity;
 use super::{Opened, VerifyError};
 use nephrite_formats::neph::{SECTION_ALIGNMENT, SectionKind};
@@ -32,6 +33,7 @@ impl Opened {
         self.check_positions()?;
         self.check_vertex_counts()?;
         self.check_vertex_births()?;
+        self.check_compact()?;
         self.check_tree()?;
         self.check_simplex_counts()
     }
@@ -108,6 +110,10 @@ impl Opened {
             }
         }
         Ok(())
+    }
+
+    fn check_compact(&self) -> Result<(), VerifyError> {
+        Ok(self.compact_sections().map_or(Ok(()), CompactSections::check)?)
     }
 
     fn check_tree(&self) -> Result<(), VerifyError> {

@@ -3,6 +3,7 @@
 use super::arrange::{Grid, VertexOrder, bounds};
 use super::attributes::AttributeSections;
 use super::body::BodyWriter;
+use super::compact::CompactSlots;
 use super::pieces::Pieces;
 use super::{Metadata, Provenance, WriteError};
 use crate::History;
@@ -24,6 +25,9 @@ pub struct StoreOptions {
     /// are transformed when a level is drawn as runs. With the usual levels some 1.1 per triangle for 16 instead of 1.8, and
     /// 0.9 for 8, in files 1.8 and 2.8 times as long. `None` for no windows.
     pub window_levels: Option<u32>,
+    /// Each simplex once, with narrow indices and stamps: a file of a third to two thirds the length, which a reader lays
+    /// out in memory when it opens it, whereas slots in the plain form are used where they lie.
+    pub is_compact: bool,
 }
 
 /// What was written.
@@ -70,12 +74,14 @@ pub fn write_to<const CORNERS: usize>(
     let (run_offsets, runs) = layout.runs();
     let metadata = metadata_bytes(provenance)?;
     let attributes = AttributeSections::new(mesh, vertices.order.len())?;
+    let compact = options.is_compact.then(|| CompactSlots::new(layout.slots(), &pieces));
     let content = Content {
         mesh,
         history,
         levels: &levels,
         pieces,
         layout,
+        compact,
         vertices,
         run_offsets,
         runs,
@@ -146,6 +152,7 @@ struct Content<'a, const CORNERS: usize> {
     levels: &'a Levels,
     pieces: Pieces<'a, CORNERS>,
     layout: Layout,
+    compact: Option<CompactSlots>,
     vertices: VertexOrder,
     run_offsets: Vec<u64>,
     runs: Vec<Run>,
@@ -178,9 +185,26 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
         if !self.attributes.table.is_empty() {
             sections.push((SectionKind::AttributeValues, self.attributes.values_bytes));
         }
-        sections.push((SectionKind::Simplices, 4 * CORNERS as u64 * n_slots));
-        sections.push((SectionKind::Stamps, 4 * n_slots));
+        sections.extend(self.slot_section_bytes(n_vertices, n_slots));
         sections
+    }
+
+    /// The sections that hold the slots, in one form or the other.
+    fn slot_section_bytes(&self, n_vertices: u64, n_slots: u64) -> Vec<(SectionKind, u64)> {
+        let n_corners = CORNERS as u64;
+        let Some(CompactSlots { distinct, repeat_bits, repeat_sources }) = &self.compact else {
+            return vec![
+                (SectionKind::Simplices, 4 * n_corners * n_slots),
+                (SectionKind::Stamps, 4 * n_slots),
+            ];
+        };
+        let corners_bytes = neph::index_bytes(n_vertices) * n_corners;
+        vec![
+            (SectionKind::DistinctSimplices, corners_bytes * distinct.len() as u64),
+            (SectionKind::RepeatBits, 8 * repeat_bits.len() as u64),
+            (SectionKind::RepeatSources, 4 * repeat_sources.len() as u64),
+            (SectionKind::CompactStamps, neph::stamp_bytes(self.levels.n_levels()) * n_slots),
+        ]
     }
 
     fn stream_to(&self, stream: &mut (impl Write + Seek), placement: &Placement) -> io::Result<()> {
@@ -206,7 +230,6 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
     }
 
     fn stream_section(&self, kind: SectionKind, body: &mut BodyWriter<impl Write>) -> io::Result<()> {
-        let slots = self.layout.slots().iter();
         match kind {
             SectionKind::Metadata => body.put(&self.metadata),
             SectionKind::Errors => body.put_each(self.errors()),
@@ -219,15 +242,38 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             SectionKind::AttributeNames => body.put(&self.attributes.names),
             SectionKind::AttributeValues => self.stream_attribute_values(body),
             SectionKind::Positions => body.put_each(self.positions()),
-            SectionKind::Simplices => {
-                body.put_each(slots.flat_map(|&id| {
-                    self.pieces.vertices(id).map(|vertex| self.vertices.rank[vertex as usize])
-                }))
-            }
+            SectionKind::Simplices => body.put_each(self.corners(self.layout.slots())),
             SectionKind::Stamps => body.put_each(self.stamps()),
+            SectionKind::CompactStamps => {
+                put_narrow(body, neph::stamp_bytes(self.levels.n_levels()), self.stamps())
+            }
+            SectionKind::DistinctSimplices | SectionKind::RepeatBits | SectionKind::RepeatSources => {
+                self.compact.as_ref().map_or(Ok(()), |compact| self.stream_compact(compact, kind, body))
+            }
             // Known only when the body is written.
             SectionKind::Checksums => Ok(()),
         }
+    }
+
+    fn stream_compact(
+        &self,
+        compact: &CompactSlots,
+        kind: SectionKind,
+        body: &mut BodyWriter<impl Write>,
+    ) -> io::Result<()> {
+        match kind {
+            SectionKind::RepeatBits => body.put(bytemuck::cast_slice(&compact.repeat_bits)),
+            SectionKind::RepeatSources => body.put(bytemuck::cast_slice(&compact.repeat_sources)),
+            _ => {
+                let width = neph::index_bytes(self.vertices.order.len() as u64);
+                put_narrow(body, width, self.corners(&compact.distinct))
+            }
+        }
+    }
+
+    /// Vertices of pieces, as the file numbers them.
+    fn corners(&self, ids: &[u32]) -> impl Iterator<Item = u32> {
+        ids.iter().flat_map(|&id| self.pieces.vertices(id).map(|vertex| self.vertices.rank[vertex as usize]))
     }
 
     /// Positions of the vertices in the order of the file.
@@ -296,5 +342,17 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             max_error: self.errors().last().unwrap_or(0.0),
             file_bytes: placement.file_bytes,
         }
+    }
+}
+
+/// Numbers that fit in `width` bytes, 2 or 4.
+fn put_narrow(
+    body: &mut BodyWriter<impl Write>,
+    width: u64,
+    numbers: impl Iterator<Item = u32>,
+) -> io::Result<()> {
+    match width {
+        2 => body.put_each(numbers.map(|number| u16::try_from(number).unwrap_or(u16::MAX))),
+        _ => body.put_each(numbers),
     }
 }

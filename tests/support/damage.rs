@@ -16,6 +16,11 @@ impl Seal {
         Self { directory }
     }
 
+    /// The header of the valid file.
+    pub fn header(&self) -> &Header {
+        self.directory.header()
+    }
+
     /// Offset and length of a section.
     pub fn section(&self, kind: SectionKind) -> (usize, usize) {
         let (offset, len) = self.directory.section(kind);

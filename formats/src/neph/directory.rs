@@ -15,6 +15,7 @@ pub struct Directory {
     body_start: u64,
     /// Byte range by kind, `code - 1`; empty for optional sections that are not there.
     ranges: [(u64, u64); SectionKind::ALL.len()],
+    is_compact: bool,
 }
 
 impl Directory {
@@ -31,9 +32,10 @@ impl Directory {
         check_geometry(&header)?;
         let body_start = align((HEADER_BYTES + records.len() * SECTION_RECORD_BYTES) as u64);
         check_coverage(&records, body_start, file_bytes)?;
-        let ranges = known_ranges(&records)?;
-        let directory = Self { header, body_start, ranges };
+        let (ranges, is_compact) = known_ranges(&records)?;
+        let directory = Self { header, body_start, ranges, is_compact };
         directory.check_section_bytes()?;
+        directory.check_slot_bytes()?;
         Ok(directory)
     }
 
@@ -45,6 +47,17 @@ impl Directory {
     /// Offset and length of a section; length 0 when an optional section is not there.
     pub fn section(&self, kind: SectionKind) -> (u64, u64) {
         self.ranges[kind as usize - 1]
+    }
+
+    /// Whether the slots are in the compact form.
+    pub fn is_compact(&self) -> bool {
+        self.is_compact
+    }
+
+    /// Simplices that the compact form holds; 0 in the plain form.
+    pub fn n_distinct(&self) -> u64 {
+        let bytes = u64::from(self.header.n_corners) * index_bytes(self.header.n_vertices);
+        self.section(SectionKind::DistinctSimplices).1 / bytes
     }
 
     /// The checksummed part of the file: from the first section to the checksum section.
@@ -62,8 +75,6 @@ impl Directory {
             (SectionKind::VertexCounts, 4 * n_levels),
             (SectionKind::Positions, 12 * header.n_vertices),
             (SectionKind::RunOffsets, 8 * (n_levels + 1)),
-            (SectionKind::Simplices, 4 * u64::from(header.n_corners) * header.n_slots),
-            (SectionKind::Stamps, 4 * header.n_slots),
             (SectionKind::Checksums, 8 * (self.body().end - self.body().start).div_ceil(header.chunk_bytes)),
         ];
         let at_most = [
@@ -91,6 +102,40 @@ impl Directory {
         }
         Ok(())
     }
+
+    /// The slots, in one form or the other, are as many as the header says.
+    fn check_slot_bytes(&self) -> Result<(), NephError> {
+        let Header { n_slots, n_corners, n_vertices, n_levels, .. } = self.header;
+        let n_corners = u64::from(n_corners);
+        let exact = if self.is_compact {
+            let n_distinct = self.n_distinct();
+            vec![
+                (SectionKind::DistinctSimplices, n_corners * index_bytes(n_vertices) * n_distinct),
+                (SectionKind::RepeatBits, 8 * n_slots.div_ceil(64)),
+                (SectionKind::RepeatSources, 4 * n_slots.saturating_sub(n_distinct)),
+                (SectionKind::CompactStamps, stamp_bytes(n_levels) * n_slots),
+            ]
+        } else {
+            vec![(SectionKind::Simplices, 4 * n_corners * n_slots), (SectionKind::Stamps, 4 * n_slots)]
+        };
+        for (kind, expected) in exact {
+            let found = self.section(kind).1;
+            if found != expected {
+                return Err(NephError::SectionBytes { kind, found, expected });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Bytes of a vertex index in the compact form.
+pub fn index_bytes(n_vertices: u64) -> u64 {
+    if n_vertices <= 1 << 16 { 2 } else { 4 }
+}
+
+/// Bytes of a stamp in the compact form. Stamps are levels, or one more.
+pub fn stamp_bytes(n_levels: u32) -> u64 {
+    if n_levels <= u32::from(u16::MAX) { 2 } else { 4 }
 }
 
 fn read_header(head: &[u8], file_bytes: u64) -> Result<Header, NephError> {
@@ -192,7 +237,10 @@ fn check_coverage(records: &[SectionRecord], body_start: u64, file_bytes: u64) -
     if is_last { Ok(()) } else { Err(NephError::ChecksumsNotLast) }
 }
 
-fn known_ranges(records: &[SectionRecord]) -> Result<[(u64, u64); SectionKind::ALL.len()], NephError> {
+/// Byte range of every kind, and whether the slots are in the compact form.
+fn known_ranges(
+    records: &[SectionRecord],
+) -> Result<([(u64, u64); SectionKind::ALL.len()], bool), NephError> {
     let mut found = [None; SectionKind::ALL.len()];
     for (index, record) in records.iter().enumerate() {
         if records[..index].iter().any(|earlier| earlier.kind == record.kind) {
@@ -206,13 +254,22 @@ fn known_ranges(records: &[SectionRecord]) -> Result<[(u64, u64); SectionKind::A
             None => {}
         }
     }
+    let has_any = |kinds: &[SectionKind]| kinds.iter().any(|&kind| found[kind as usize - 1].is_some());
+    let is_compact = has_any(&SectionKind::COMPACT);
+    let n_forms = u32::from(has_any(&SectionKind::PLAIN)) + u32::from(is_compact);
+    if n_forms != 1 {
+        return Err(NephError::Forms { found: n_forms });
+    }
+    let other_form: &[SectionKind] = if is_compact { &SectionKind::PLAIN } else { &SectionKind::COMPACT };
     let mut ranges = [(0, 0); SectionKind::ALL.len()];
     for kind in SectionKind::ALL {
         ranges[kind as usize - 1] = match found[kind as usize - 1] {
             Some(range) => range,
-            None if kind.is_required() => return Err(NephError::Missing { kind }),
+            None if kind.is_required() && !other_form.contains(&kind) => {
+                return Err(NephError::Missing { kind });
+            }
             None => (0, 0),
         };
     }
-    Ok(ranges)
+    Ok((ranges, is_compact))
 }

@@ -101,6 +101,12 @@ pub enum NephError {
         /// Its kind.
         kind: SectionKind,
     },
+    /// Slots in the plain form and in the compact form, or in neither.
+    #[error("slots are in {found} forms, expected either the plain or the compact one")]
+    Forms {
+        /// Forms of which a section is there.
+        found: u32,
+    },
     /// Sections overlap, leave a hole, are not in order or do not end with the file.
     #[error("section of kind {kind} begins at byte {found} instead of {expected}")]
     Coverage {

@@ -16,7 +16,7 @@ pub use attribute::{
     scalar_from_code,
 };
 pub use checksum::{ChunkHasher, checksum, head_checksum};
-pub use directory::Directory;
+pub use directory::{Directory, index_bytes, stamp_bytes};
 pub use error::NephError;
 pub use header::{CHUNK_BYTES, HEADER_BYTES, Header, MAGIC, MAX_HEAD_BYTES, MAX_LEVELS, VERSION};
 pub use section::{

@@ -44,11 +44,19 @@ pub enum SectionKind {
     Checksums = 13,
     /// `u32` per vertex: level from which on it is there.
     VertexBirths = 14,
+    /// Compact form: `n_corners` indices for each simplex that a slot is the first to hold.
+    DistinctSimplices = 15,
+    /// Compact form: a bit per slot, in `u64` words, set where the simplex is one that an earlier slot holds.
+    RepeatBits = 16,
+    /// Compact form: `u32` per set bit, place of the simplex among the distinct ones.
+    RepeatSources = 17,
+    /// Compact form: a stamp per slot.
+    CompactStamps = 18,
 }
 
 impl SectionKind {
     /// Every kind of version 1, in the order of their numbers.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::Metadata,
         Self::Errors,
         Self::SimplexCounts,
@@ -63,7 +71,18 @@ impl SectionKind {
         Self::AttributeValues,
         Self::Checksums,
         Self::VertexBirths,
+        Self::DistinctSimplices,
+        Self::RepeatBits,
+        Self::RepeatSources,
+        Self::CompactStamps,
     ];
+
+    /// The sections that hold the slots in the plain form.
+    pub const PLAIN: [Self; 2] = [Self::Simplices, Self::Stamps];
+
+    /// The sections that hold the slots in the compact form.
+    pub const COMPACT: [Self; 4] =
+        [Self::DistinctSimplices, Self::RepeatBits, Self::RepeatSources, Self::CompactStamps];
 
     /// Number in the file.
     pub fn code(self) -> u32 {
@@ -75,7 +94,7 @@ impl SectionKind {
         Self::ALL.into_iter().find(|kind| kind.code() == code)
     }
 
-    /// Whether every file has it.
+    /// Whether a file that has it cannot be understood without it.
     pub fn is_required(self) -> bool {
         !matches!(
             self,
