@@ -3,13 +3,17 @@
 //! * `levels_check`: is the stated error of a level ever exceeded, and how close is it?
 //! * `tables`: triangles at a given error and error at a given triangle count, beside published figures.
 //! * `speed`: the whole history beside a chain of halvings by meshoptimizer, and the memory both take.
+//! * `granularity`: levels and bytes beside that chain, and vertex transforms of levels drawn as runs.
+//! * `growth`: query time from ten thousand lifetimes to a hundred million.
 //! * `intervals`: extraction beside general interval trees over the same lifetimes.
 //!
 //! This crate is a workspace of its own: building or testing the project builds none of it.
 
 pub mod anchors;
+pub mod chain;
 mod error;
 mod every_level;
+pub mod lifetimes;
 pub mod statistics;
 pub mod stopwatch;
 mod table;

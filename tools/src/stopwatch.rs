@@ -4,6 +4,8 @@ use std::time::{Duration, Instant};
 
 /// Samples taken of each piece of work; odd, so that the median is one of them.
 const N_SAMPLES: usize = 31;
+/// Samples taken where each needs a preparation.
+const N_PREPARED_SAMPLES: usize = 9;
 /// Shortest sample: briefer work is repeated within one, so that reading the clock does not count.
 const SHORTEST_SAMPLE: Duration = Duration::from_micros(50);
 
@@ -21,7 +23,17 @@ pub(crate) fn in_turn(mut first: impl FnMut(), mut second: impl FnMut()) -> [f64
 /// Median seconds that a piece of work takes.
 pub(crate) fn alone(mut work: impl FnMut()) -> f64 {
     let n_calls = n_repeats(&mut work);
-    median(std::array::from_fn(|_| seconds_per_call(&mut work, n_calls)))
+    median::<N_SAMPLES>(std::array::from_fn(|_| seconds_per_call(&mut work, n_calls)))
+}
+
+/// Median seconds that a piece of work takes when it comes once after each preparation, whose time does not count.
+pub(crate) fn after(mut prepare: impl FnMut(), mut work: impl FnMut()) -> f64 {
+    let mut seconds = [0.0; N_PREPARED_SAMPLES];
+    for seconds in &mut seconds {
+        prepare();
+        *seconds = seconds_per_call(&mut work, 1);
+    }
+    median(seconds)
 }
 
 /// Calls that fill the shortest sample.
@@ -47,9 +59,9 @@ fn seconds_per_call(work: &mut impl FnMut(), n_calls: u32) -> f64 {
     start.elapsed().as_secs_f64() / f64::from(n_calls)
 }
 
-fn median(mut seconds: [f64; N_SAMPLES]) -> f64 {
+fn median<const N: usize>(mut seconds: [f64; N]) -> f64 {
     seconds.sort_unstable_by(f64::total_cmp);
-    seconds[N_SAMPLES / 2]
+    seconds[N / 2]
 }
 
 #[cfg(test)]

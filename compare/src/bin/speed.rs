@@ -6,8 +6,8 @@
 //! and less the mesh. Linux only for the memory.
 
 use clap::{Parser, ValueEnum};
-use meshopt::{SimplifyOptions, VertexDataAdapter, simplify, typed_to_bytes};
 use nephrite::{BuildError, BuildOptions, TriangleMesh};
+use nephrite_compare::chain::chain_of_halvings;
 use nephrite_compare::{CompareError, Table, load, stopwatch::in_turn};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
@@ -38,9 +38,6 @@ enum System {
     Nephrite,
     Meshoptimizer,
 }
-
-/// Triangles at which the chain ends.
-const CHAIN_END: usize = 64;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -75,12 +72,12 @@ fn compare(arguments: &Arguments) -> Result<(), CompareError> {
     for path in &arguments.meshes {
         let mesh = load(path)?;
         history(&mesh)?;
-        let n_levels = chain(&mesh)?;
+        let n_levels = chain_of_halvings(&mesh)?.len();
         let seconds = in_turn(
             arguments.repeats,
             Duration::ZERO,
             &mut [
-                &mut || _ = black_box(chain(&mesh)),
+                &mut || _ = black_box(chain_of_halvings(&mesh)),
                 &mut || _ = black_box(one.install(|| history(&mesh))),
                 &mut || _ = black_box(two.install(|| history(&mesh))),
             ],
@@ -117,23 +114,6 @@ fn history(mesh: &TriangleMesh) -> Result<usize, BuildError> {
     Ok(build.history.errors.len())
 }
 
-/// Halves until the end of the chain or until nothing goes any more; gives the number of levels, the input included.
-fn chain(mesh: &TriangleMesh) -> Result<usize, CompareError> {
-    let vertices = VertexDataAdapter::new(typed_to_bytes(&mesh.positions), size_of::<[f32; 3]>(), 0)?;
-    let mut indices = mesh.triangles.as_flattened().to_vec();
-    let mut n_levels = 1;
-    while indices.len() / 3 > CHAIN_END {
-        let target = (indices.len() / 6).max(CHAIN_END) * 3;
-        let halved = simplify(&indices, &vertices, target, f32::MAX, SimplifyOptions::None, None);
-        if halved.len() == indices.len() {
-            break;
-        }
-        indices = halved;
-        n_levels += 1;
-    }
-    Ok(n_levels)
-}
-
 /// What simplifying a mesh takes beside the mesh, in bytes; `None` where the system does not tell.
 fn memory_in_own_process(system: System, path: &Path) -> Result<Option<f64>, CompareError> {
     let name = match system {
@@ -156,7 +136,7 @@ fn print_memory(system: System, path: &Path) -> Result<(), CompareError> {
     std::fs::write("/proc/self/clear_refs", "5")?;
     match system {
         System::Nephrite => _ = black_box(history(&mesh)?),
-        System::Meshoptimizer => _ = black_box(chain(&mesh)?),
+        System::Meshoptimizer => _ = black_box(chain_of_halvings(&mesh)?),
     }
     let mesh_bytes = size_of_val(&mesh.positions[..]) + size_of_val(&mesh.triangles[..]);
     if let Some(peak) = resident_bytes("VmHWM:") {

@@ -1,7 +1,10 @@
 //! `nephrite bench`: how fast this machine takes levels out of a file, beside copying the same bytes plainly.
 
+mod memory;
+
 use std::hint::black_box;
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use nephrite::Lod;
@@ -12,6 +15,7 @@ use serde_json::{Value, json};
 use crate::failure::Failure;
 use crate::report::Report;
 use crate::{figures, files, stopwatch};
+use memory::{CacheFlush, forget_file};
 
 /// Measure how fast levels come out of a file on this machine.
 #[derive(Debug, Args)]
@@ -32,6 +36,9 @@ struct Measured {
     extract_triangles_per_second: f64,
     parallel_triangles_per_second: f64,
     memcpy_triangles_per_second: f64,
+    /// The same two with nothing of theirs in the processor's caches.
+    far_triangles_per_second: f64,
+    far_memcpy_triangles_per_second: f64,
     /// Vertices transformed per triangle with a cache of 16, drawn as runs and as an ordered copy.
     miss_ratio: f64,
     ordered_miss_ratio: f64,
@@ -43,7 +50,12 @@ impl Measured {
         self.extract_triangles_per_second / self.memcpy_triangles_per_second
     }
 
-    fn row(&self) -> [String; 10] {
+    /// The same out of cache.
+    fn far_ratio(&self) -> f64 {
+        self.far_triangles_per_second / self.far_memcpy_triangles_per_second
+    }
+
+    fn row(&self) -> [String; 12] {
         [
             self.level.to_string(),
             figures::count(self.n_triangles),
@@ -52,6 +64,8 @@ impl Measured {
             format!("{:.0}", self.extract_triangles_per_second / 1e6),
             format!("{:.0}", self.memcpy_triangles_per_second / 1e6),
             format!("{:.2}", self.ratio()),
+            format!("{:.0}", self.far_triangles_per_second / 1e6),
+            format!("{:.2}", self.far_ratio()),
             format!("{:.0}", self.parallel_triangles_per_second / 1e6),
             format!("{:.2}", self.miss_ratio),
             format!("{:.2}", self.ordered_miss_ratio),
@@ -67,6 +81,9 @@ impl Measured {
             "extract_triangles_per_second": self.extract_triangles_per_second,
             "memcpy_triangles_per_second": self.memcpy_triangles_per_second,
             "ratio": self.ratio(),
+            "out_of_cache_triangles_per_second": self.far_triangles_per_second,
+            "out_of_cache_memcpy_triangles_per_second": self.far_memcpy_triangles_per_second,
+            "out_of_cache_ratio": self.far_ratio(),
             "parallel_extract_triangles_per_second": self.parallel_triangles_per_second,
             "miss_ratio": self.miss_ratio,
             "ordered_miss_ratio": self.ordered_miss_ratio,
@@ -76,9 +93,12 @@ impl Measured {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let lod = files::open_lod(&arguments.file)?;
+    let opening =
+        Opening::measure(&arguments.file).map_err(|source| Failure::file(&arguments.file, source))?;
+    let mut flush = CacheFlush::new();
     let mut cuts = Vec::new();
     for level in spread_levels(&lod) {
-        cuts.push(measure(&lod, level).map_err(|source| Failure::file(&arguments.file, source))?);
+        cuts.push(measure(&lod, level, &mut flush).map_err(|source| Failure::file(&arguments.file, source))?);
     }
     let rows: Vec<_> = cuts.iter().map(Measured::row).collect();
     let headings = [
@@ -88,6 +108,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         "query",
         "extract Mtri/s",
         "memcpy Mtri/s",
+        "ratio",
+        "out of cache Mtri/s",
         "ratio",
         "all threads Mtri/s",
         "misses",
@@ -99,13 +121,38 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
          in cache order.\n"
     );
     Ok(Report {
-        text: figures::table(headings, &rows) + &legend,
+        text: figures::table(headings, &rows) + &legend + &opening.text(),
         json: json!({
             "cuts": cuts.iter().map(Measured::json).collect::<Vec<_>>(),
             "cache_len": CACHE_LEN,
             "threads": n_threads,
+            "open_seconds": opening.warm_seconds,
+            "cold_open_seconds": opening.cold_seconds,
         }),
     })
+}
+
+/// Seconds that reading the whole file and checking its head takes.
+struct Opening {
+    /// From the system's memory.
+    warm_seconds: f64,
+    /// From the disk; `None` where the system cannot be asked to forget a file.
+    cold_seconds: Option<f64>,
+}
+
+impl Opening {
+    fn measure(path: &Path) -> io::Result<Self> {
+        let mut open = || _ = black_box(Lod::open(black_box(path)));
+        let warm_seconds = stopwatch::alone(&mut open);
+        let can_forget = forget_file(path)?;
+        let cold_seconds = can_forget.then(|| stopwatch::after(|| _ = forget_file(path), &mut open));
+        Ok(Self { warm_seconds, cold_seconds })
+    }
+
+    fn text(&self) -> String {
+        let cold = self.cold_seconds.map_or("-".to_owned(), |seconds| format!("{:.2} ms", seconds * 1e3));
+        format!("Opened by reading it all: {:.2} ms, from the disk {cold}.\n", self.warm_seconds * 1e3)
+    }
 }
 
 /// Levels whose triangle counts are evenly apart in the logarithm, each once, finest first.
@@ -123,7 +170,7 @@ fn spread_levels(lod: &Lod) -> Vec<u32> {
     levels
 }
 
-fn measure(lod: &Lod, level: u32) -> Result<Measured, QueryError> {
+fn measure(lod: &Lod, level: u32, flush: &mut CacheFlush) -> Result<Measured, QueryError> {
     let cut = lod.at_level(level);
     let n_indices = cut.n_indices();
     let [mut extracted, mut copied] = [vec![0; n_indices], vec![0; n_indices]];
@@ -133,6 +180,10 @@ fn measure(lod: &Lod, level: u32) -> Result<Measured, QueryError> {
         || _ = black_box(cut.extract_into(black_box(&mut extracted))),
         || black_box(&mut copied).copy_from_slice(black_box(&source)),
     );
+    let far_seconds =
+        stopwatch::after(|| flush.flush(), || _ = black_box(cut.extract_into(black_box(&mut extracted))));
+    let far_memcpy_seconds =
+        stopwatch::after(|| flush.flush(), || black_box(&mut copied).copy_from_slice(black_box(&source)));
     let error = cut.error();
     let query_seconds = stopwatch::alone(|| {
         for run in lod.at_error(black_box(error)).runs() {
@@ -155,6 +206,8 @@ fn measure(lod: &Lod, level: u32) -> Result<Measured, QueryError> {
         extract_triangles_per_second: n_triangles as f64 / extract_seconds,
         parallel_triangles_per_second: n_triangles as f64 / parallel_seconds,
         memcpy_triangles_per_second: n_triangles as f64 / memcpy_seconds,
+        far_triangles_per_second: n_triangles as f64 / far_seconds,
+        far_memcpy_triangles_per_second: n_triangles as f64 / far_memcpy_seconds,
         miss_ratio: cut.miss_ratio(CACHE_LEN),
         ordered_miss_ratio,
     })
