@@ -36,7 +36,7 @@ fn open(criterion: &mut Criterion) {
             group.bench_function(id(name), |bencher| {
                 let prepare = || {
                     if forget {
-                        forget_file(&path)
+                        forget_file(&path);
                     }
                 };
                 bencher.iter_batched(prepare, |()| first_cut(&path), BatchSize::PerIteration);
