@@ -1,0 +1,56 @@
+//! A surface for whoever has no file at hand.
+
+use crate::RenderError;
+use glam::Vec3;
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{BuildOptions, History, Lod, TriangleMesh, generate};
+use std::io::Cursor;
+use std::ops::ControlFlow;
+
+/// Builds all levels of a mesh in memory.
+///
+/// # Errors
+///
+/// [`RenderError::Build`], [`RenderError::Store`], [`RenderError::Open`].
+pub fn lod_of(mesh: &TriangleMesh) -> Result<Lod, RenderError> {
+    let build = nephrite::build(mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?;
+    stored(&build.mesh, &build.history)
+}
+
+/// The levels of a history, through a file in memory.
+pub(crate) fn stored(mesh: &TriangleMesh, history: &History) -> Result<Lod, RenderError> {
+    let mut file = Cursor::new(Vec::new());
+    write_to(&mut file, mesh, history, &Provenance::default(), &StoreOptions::default())?;
+    Lod::from_bytes(&file.into_inner())
+        .map_err(|source| RenderError::Open { path: "built-in surface".into(), source })
+}
+
+/// A rope of four strands tied into a trefoil knot, of about `n_triangles`.
+pub fn knot(n_triangles: u32) -> TriangleMesh {
+    // The rope is some twelve times as long as it is thick around.
+    let sides = (n_triangles / 24).isqrt().clamp(3, 1000);
+    let mut mesh = generate::torus(12 * sides, sides);
+    for position in &mut mesh.positions {
+        *position = tied(*position);
+    }
+    mesh
+}
+
+/// Carries a point of the generated torus, whose tube lies around the unit circle, over to the knot.
+///
+/// The knot lies on a torus of radii 2 and 1, and the normal of that torus is at right angles to it: with the tangent it spans
+/// a frame that closes after one turn.
+fn tied([x, y, z]: [f32; 3]) -> [f32; 3] {
+    let around = y.atan2(x);
+    let (tube_x, tube_y) = (x.hypot(y) - 1.0, z);
+    let strand = 1.0 + 0.14 * (4.0 * tube_y.atan2(tube_x) + 25.0 * around).cos();
+    let ((sin_2, cos_2), (sin_3, cos_3)) = ((2.0 * around).sin_cos(), (3.0 * around).sin_cos());
+    let ring = 2.0 + cos_3;
+    let on_knot = Vec3::new(ring * cos_2, ring * sin_2, sin_3);
+    let normal = Vec3::new(cos_3 * cos_2, cos_3 * sin_2, sin_3);
+    let along_ring = 2.0 * ring * Vec3::new(-sin_2, cos_2, 0.0);
+    let along_tube = 3.0 * Vec3::new(-sin_3 * cos_2, -sin_3 * sin_2, cos_3);
+    let tangent = (along_ring + along_tube).normalize();
+    // In this order outside stays outside.
+    (on_knot + 1.5 * strand * (tube_x * normal + tube_y * normal.cross(tangent))).to_array()
+}

@@ -1,0 +1,70 @@
+//! What one frame draws.
+
+use crate::Model;
+use std::ops::Range;
+
+/// One instance as the vertex shader reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct InstanceRecord {
+    /// The first three rows of the matrix from mesh units to the scene.
+    pub rows: [[f32; 4]; 3],
+    /// Linear red, green and blue; the fourth is unused.
+    pub color: [f32; 4],
+}
+
+/// Instances of one model at one level: they share its runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Which model.
+    pub model: usize,
+    /// Its level.
+    pub level: u32,
+    /// Which records.
+    pub instances: Range<u32>,
+}
+
+/// One call of `draw_indexed`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Draw {
+    /// Whose buffers are read.
+    pub model: usize,
+    /// A contiguous range of its index buffer.
+    pub indices: Range<u32>,
+    /// Which records.
+    pub instances: Range<u32>,
+}
+
+/// The lists of one frame; kept from frame to frame for their memory.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// Instances in the picture, those of a group together.
+    pub instances: Vec<InstanceRecord>,
+    /// Levels in use.
+    pub groups: Vec<Group>,
+    /// Draw calls.
+    pub draws: Vec<Draw>,
+}
+
+impl Frame {
+    /// Lists the draw calls: one for every run of every group.
+    ///
+    /// This is all that a level of detail costs on the way to the screen; no triangle is looked at. Ends of ranges fit 32 bits as
+    /// the device takes no index buffer of 16 GiB.
+    pub fn list_draws(&mut self, models: &[Model]) {
+        self.draws.clear();
+        for Group { model, level, instances } in &self.groups {
+            let runs = models[*model].lod().at_level(*level).runs();
+            self.draws.extend(runs.map(|run| Draw {
+                model: *model,
+                indices: 3 * run.start..3 * (run.start + run.len),
+                instances: instances.clone(),
+            }));
+        }
+    }
+
+    /// Triangles that all draws draw.
+    pub fn n_triangles(&self) -> u64 {
+        self.draws.iter().map(|draw| draw.indices.len() as u64 / 3 * draw.instances.len() as u64).sum()
+    }
+}
