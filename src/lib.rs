@@ -1,4 +1,7 @@
 //! One mesh in, every level of detail out, each with an error that is stated.
+//!
+//! [`build()`] makes the levels, [`store`] keeps them, [`Lod`] answers which triangles make the mesh at an error, a budget or a
+//! distance. `docs/drawing-a-level.md` in the repository shows how a level goes to a graphics library, from wgpu to WebGL.
 
 pub mod bound;
 mod build;
@@ -25,3 +28,8 @@ pub use query::{Cut, Lod};
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// Compiles what the page on drawing shows.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/drawing-a-level.md")]
+struct DrawingALevel;
