@@ -5,15 +5,20 @@
 
 mod arguments;
 mod commands;
+mod curve;
 mod failure;
 mod figures;
 mod files;
 mod interrupt;
 mod length;
+#[cfg(feature = "view")]
+mod page;
 mod plot;
 mod progress;
 mod ramp;
 mod report;
+#[cfg(feature = "view")]
+mod serve;
 mod stopwatch;
 mod threads;
 
@@ -26,7 +31,7 @@ use crate::failure::Failure;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let printed = arguments.command.run().and_then(|report| {
+    let printed = arguments.command.run(arguments.form()).and_then(|report| {
         report.print(arguments.form()).map_err(|source| Failure::system("standard output", source))
     });
     match printed {

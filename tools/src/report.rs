@@ -8,7 +8,7 @@ use serde_json::Value;
 pub(crate) struct Report {
     /// For a person; ends in a newline.
     pub(crate) text: String,
-    /// For a script: one object.
+    /// For a script: one object; null for a command that has said all it has to say.
     pub(crate) json: Value,
 }
 
@@ -31,6 +31,7 @@ impl Report {
         let mut stdout = io::stdout().lock();
         let printed = match form {
             Form::Text => stdout.write_all(self.text.as_bytes()),
+            Form::Json if self.json.is_null() => Ok(()),
             Form::Json => writeln!(stdout, "{}", self.json),
         };
         match printed.and_then(|()| stdout.flush()) {

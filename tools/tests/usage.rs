@@ -29,8 +29,12 @@ fn wrong_usage_has_status_two() {
         "generate cosine",
         "generate cosine --side 1 -o out.ply",
         "measure in.ply",
+        "plot in.neph",
         "measure in.ply out.ply --samples 0",
         "measure in.ply out.ply --tolerance 0",
+        "view --no-open",
+        "view in.neph --port 65536",
+        "view in.neph --export out --port 80",
         "completions none",
     ] {
         let run = place.run(line);

@@ -8,12 +8,15 @@ mod extract;
 mod generate;
 mod info;
 mod measure;
+mod plot;
 mod verify;
+#[cfg(feature = "view")]
+mod view;
 
 use clap::Subcommand;
 
 use crate::failure::Failure;
-use crate::report::Report;
+use crate::report::{Form, Report};
 
 /// What the program can do.
 #[derive(Debug, Subcommand)]
@@ -26,16 +29,19 @@ pub(crate) enum Command {
     Verify(verify::Arguments),
     Measure(measure::Arguments),
     Bench(bench::Arguments),
+    Plot(plot::Arguments),
+    #[cfg(feature = "view")]
+    View(view::Arguments),
     Completions(completions::Arguments),
 }
 
 impl Command {
-    /// Runs the command.
+    /// Runs the command. What it has to say at the end it returns; `form` is for what a server must say at its start.
     ///
     /// # Errors
     ///
     /// Whatever stops it; no output file is left half-written.
-    pub(crate) fn run(&self) -> Result<Report, Failure> {
+    pub(crate) fn run(&self, form: Form) -> Result<Report, Failure> {
         match self {
             Self::Demo(arguments) => demo::run(arguments),
             Self::Generate(arguments) => generate::run(arguments),
@@ -45,6 +51,9 @@ impl Command {
             Self::Verify(arguments) => verify::run(arguments),
             Self::Measure(arguments) => measure::run(arguments),
             Self::Bench(arguments) => bench::run(arguments),
+            Self::Plot(arguments) => plot::run(arguments),
+            #[cfg(feature = "view")]
+            Self::View(arguments) => view::run(arguments, form),
             Self::Completions(arguments) => Ok(completions::run(arguments)),
         }
     }

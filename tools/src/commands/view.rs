@@ -1,0 +1,114 @@
+//! `nephrite view`: files in the browser, with a slider.
+
+use std::fs;
+use std::io;
+use std::net::{IpAddr, Ipv4Addr};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::page::PAGE;
+use crate::report::{self, Form, Report};
+use crate::serve::{Body, Server, Site};
+use crate::{figures, files, interrupt};
+
+/// Look at files in the browser: any level of detail under a slider.
+///
+/// Serves one page and the files named to this machine alone, opens the browser and goes on until Ctrl-C. The page brings all it
+/// needs and loads nothing from elsewhere.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Files that `build` wrote; several make a gallery
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+
+    /// Port to listen on; 0 takes any that is free
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    port: u16,
+
+    /// Address to listen on; any but this machine's own lets others see the files
+    #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    address: IpAddr,
+
+    /// Only print the address
+    #[arg(long)]
+    no_open: bool,
+
+    /// Write the page and copies of the files into a folder that any file server can serve, and end
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["port", "address", "no_open"])]
+    export: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, Failure> {
+    let page = PAGE.map_err(|why| Failure::file("the page", io::Error::other(why)))?;
+    interrupt::listen();
+    let site = Site::new(page, &arguments.files, arguments.export.is_none())?;
+    match &arguments.export {
+        Some(folder) => export(&site, folder),
+        None => serve(arguments, site, form),
+    }
+}
+
+fn serve(arguments: &Arguments, site: Site, form: Form) -> Result<Report, Failure> {
+    let place = format!("{} port {}", arguments.address, arguments.port);
+    let server =
+        Server::bind(arguments.address, arguments.port).map_err(|source| Failure::system(&place, source))?;
+    let url = server.url();
+    let start = Report {
+        text: format!("{url}\nCtrl-C ends it.\n"),
+        json: json!({ "url": url, "files": arguments.files.len() }),
+    };
+    start.print(form).map_err(|source| Failure::system("standard output", source))?;
+    if !arguments.no_open && open::that_detached(&url).is_err() {
+        report::note("no browser to open was found");
+    }
+    server.run(site).map_err(|source| Failure::system(&place, source))?;
+    Ok(Report { text: String::new(), json: Value::Null })
+}
+
+/// Writes every address of the site as a file. What was in the folder before stays, but for files of the same names.
+fn export(site: &Site, folder: &Path) -> Result<Report, Failure> {
+    let inputs: Vec<&Path> = site
+        .entries()
+        .filter_map(|(_, entry)| match &entry.body {
+            Body::File(path) => Some(path.as_path()),
+            Body::Bytes(_) => None,
+        })
+        .collect();
+    let mut n_bytes = 0;
+    for (address, entry) in site.entries() {
+        interrupt::check()?;
+        let output = folder.join(address);
+        if let Some(parent) = output.parent() {
+            fs::create_dir_all(parent).map_err(|source| Failure::file(parent, source))?;
+        }
+        files::check_output(&output, &inputs)?;
+        n_bytes += write(&output, &entry.body).map_err(|source| Failure::file(&output, source))?;
+    }
+    let n_files = inputs.len();
+    Ok(Report {
+        text: format!(
+            "{}: the page and {} of files, {} in all. Any file server will do, such as\n  python3 -m http.server -d {}\n",
+            folder.display(),
+            n_files,
+            figures::bytes(n_bytes),
+            folder.display(),
+        ),
+        json: json!({ "folder": folder.to_string_lossy(), "files": n_files, "bytes": n_bytes }),
+    })
+}
+
+/// Publishes what an address holds; returns its length in bytes.
+fn write(output: &Path, body: &Body) -> io::Result<u64> {
+    let mut n_bytes = 0;
+    nephrite_formats::publish(output, |out| {
+        n_bytes = match body {
+            Body::Bytes(bytes) => io::copy(&mut bytes.as_slice(), out)?,
+            Body::File(path) => io::copy(&mut fs::File::open(path)?, out)?,
+        };
+        Ok::<_, io::Error>(())
+    })?;
+    Ok(n_bytes)
+}
