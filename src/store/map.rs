@@ -10,7 +10,8 @@ use crate::query::Lod;
 use std::path::Path;
 
 impl Opened {
-    /// Maps a file and checks its head. Cost: constant, a few pages whatever the size of the file.
+    /// Maps a file and checks its head. Cost: constant, a few pages whatever the size of the file; of a file in the compact
+    /// form the slots are read and laid out in memory, see [`StoreOptions::is_compact`](super::StoreOptions::is_compact).
     ///
     /// # Safety
     ///
