@@ -21,6 +21,8 @@ pub enum Method {
     /// Vertex removal under a bound on the global error.
     #[default]
     Jade,
+    /// Fusion of tetrahedra; of volumes only, see [`build_volume`](crate::build_volume()).
+    Fusion,
 }
 
 /// What the error of a level means.
@@ -113,6 +115,20 @@ pub enum BuildError {
         /// Triangles before repair.
         n_triangles: usize,
     },
+    /// No tetrahedron is left after repair.
+    #[error("no tetrahedron with four distinct corners among the {n_tetrahedra} of the mesh")]
+    NoTetrahedra {
+        /// Tetrahedra before repair.
+        n_tetrahedra: usize,
+    },
+    /// A volume contradicts itself: an index without a vertex, a field of the wrong length.
+    #[error("the mesh contradicts itself: found {found} where {expected} would be right or the limit")]
+    Inconsistent {
+        /// Index or length.
+        found: u64,
+        /// Length or limit that would be right.
+        expected: u64,
+    },
     /// A coordinate is not a number, or not finite.
     #[error("vertex {vertex} has a coordinate that is not finite")]
     NotFinite {
@@ -129,6 +145,9 @@ pub enum BuildError {
         /// Vertices there are.
         n_vertices: usize,
     },
+    /// Fusion was asked for of a surface.
+    #[error("a surface has no tetrahedra to fuse")]
+    NotAVolume,
     /// An option has no meaning.
     #[error("{option} must be {expected}, found {found}")]
     Option {
@@ -158,6 +177,9 @@ pub fn build(
     observer: Observer<'_>,
 ) -> Result<Build, BuildError> {
     check_options(options)?;
+    if options.method == Method::Fusion {
+        return Err(BuildError::NotAVolume);
+    }
     check_mesh(mesh)?;
     let n_triangles_in = mesh.triangles.len();
     let max_error = options.max_error;

@@ -5,6 +5,7 @@
 
 pub mod bound;
 mod build;
+mod build_volume;
 pub mod decimate;
 pub mod generate;
 pub mod geometry;
@@ -16,12 +17,14 @@ pub mod reprove;
 pub mod store;
 pub mod tree;
 pub mod vertex_cache;
+pub mod volume;
 
 pub use build::{
     Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, bounding_diagonal, build,
 };
+pub use build_volume::{VolumeBuild, VolumeOptions, build_volume};
 pub use history::History;
-pub use nephrite_formats::{Attribute, ScalarType, TriangleMesh};
+pub use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh, TriangleMesh};
 pub use query::{Cut, Lod};
 
 /// Compiles and runs the README's example.

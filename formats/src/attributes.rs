@@ -14,7 +14,7 @@ impl Attribute {
     }
 
     /// All components of all vertices as numbers; exact for every type.
-    pub(crate) fn values(&self) -> impl Iterator<Item = f64> {
+    pub fn values(&self) -> impl Iterator<Item = f64> {
         let size_bytes = self.scalar.size_bytes();
         self.bytes.chunks_exact(size_bytes).map(move |bytes| {
             let mut wide = [0; 8];
@@ -31,6 +31,34 @@ impl Attribute {
                 ScalarType::F64 => f64::from_le_bytes(wide),
             }
         })
+    }
+
+    /// An attribute from numbers, each made the nearest value of the type; `NaN` becomes zero in integers.
+    pub fn from_values(
+        name: impl Into<String>,
+        scalar: ScalarType,
+        n_components: u32,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        let mut bytes = Vec::new();
+        for value in values {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "rounded, and such casts go to the nearest value of the type"
+            )]
+            match scalar {
+                ScalarType::I8 => bytes.extend((value.round() as i8).to_le_bytes()),
+                ScalarType::U8 => bytes.push(value.round() as u8),
+                ScalarType::I16 => bytes.extend((value.round() as i16).to_le_bytes()),
+                ScalarType::U16 => bytes.extend((value.round() as u16).to_le_bytes()),
+                ScalarType::I32 => bytes.extend((value.round() as i32).to_le_bytes()),
+                ScalarType::U32 => bytes.extend((value.round() as u32).to_le_bytes()),
+                ScalarType::F32 => bytes.extend((value as f32).to_le_bytes()),
+                ScalarType::F64 => bytes.extend(value.to_le_bytes()),
+            }
+        }
+        Self { name: name.into(), scalar, n_components, bytes }
     }
 
     /// As [`Attribute::values`], integers scaled so that the type's largest value is 1: the meaning of integer colours.

@@ -46,6 +46,21 @@ pub enum MeshError {
         /// Vertices in the file.
         n_vertices: usize,
     },
+    /// Neither the contents nor the extension tell a volume format.
+    #[error("no known volume format (VTK, VTU, Gmsh, MEDIT, TetGen and PLOT3D are read)")]
+    UnknownVolumeFormat,
+    /// A volume was to be written to a file whose extension names no format that is written.
+    #[error("no volume format is written under the extension {extension:?} (vtu and vtk are)")]
+    UnknownVolumeExtension {
+        /// The extension found, empty where there is none.
+        extension: String,
+    },
+    /// The file holds no cell with a volume.
+    #[error("no tetrahedra and nothing that could be cut into them ({n_vertices} vertices)")]
+    NoTetrahedra {
+        /// Vertices in the file.
+        n_vertices: usize,
+    },
     /// A binary file ends inside something it announced.
     #[error("{what} at {place} is cut short: {expected} bytes expected, {found} found")]
     Truncated {

@@ -15,10 +15,17 @@ mod polygon;
 mod publish;
 mod report;
 mod stl;
+mod tetrahedra;
 mod text;
+mod volume;
 
 pub use error::{MeshError, Place};
 pub use format::{MeshFormat, read_mesh, read_mesh_bytes, write_mesh, write_mesh_to};
 pub use mesh::{Attribute, ScalarType, TriangleMesh};
 pub use publish::publish;
 pub use report::{ReadReport, Warning};
+pub use tetrahedra::TetrahedronMesh;
+pub use volume::{
+    VolumeFormat, VolumeReport, VolumeWarning, read_plot3d, read_volume, read_volume_bytes, write_volume,
+    write_volume_to,
+};

@@ -1,3 +1,4 @@
 //! Decimators: each turns a mesh into the history of its simplification.
 
+pub mod fusion;
 pub mod jade;

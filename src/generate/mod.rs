@@ -16,6 +16,7 @@ mod terrain;
 #[cfg(test)]
 mod topology;
 mod torus;
+mod volumes;
 
 pub use cosine::cosine;
 pub use cuboid::cuboid;
@@ -26,6 +27,7 @@ pub use ribbon::ribbon;
 pub use sphere::{sphere, sphere_frequency};
 pub use terrain::terrain;
 pub use torus::torus;
+pub use volumes::{ball_volume, box_volume};
 
 use nephrite_formats::TriangleMesh;
 

@@ -37,6 +37,12 @@ pub enum HistoryError {
         /// Error of the step before, or zero.
         before: f64,
     },
+    /// A deviation is negative or not finite, falls, or has another length than the errors.
+    #[error("deviation {deviation} is not one number per step that never falls")]
+    Deviation {
+        /// Which one.
+        deviation: usize,
+    },
     /// A simplex dies before it is born, or lives outside the steps.
     #[error("simplex {simplex} has the lifetime [{birth}, {death}) in {n_steps} steps")]
     Lifetime {
@@ -117,6 +123,7 @@ impl<const CORNERS: usize> History<CORNERS> {
     pub fn check(&self) -> Result<(), HistoryError> {
         self.check_lengths()?;
         self.check_errors()?;
+        self.check_deviations()?;
         self.check_vertices()?;
         let n_steps = self.n_steps();
         let lifetimes = self.birth.iter().zip(&self.death);
@@ -184,6 +191,18 @@ impl<const CORNERS: usize> History<CORNERS> {
         Ok(())
     }
 
+    fn check_deviations(&self) -> Result<(), HistoryError> {
+        let is_good = |values: &[f64]| {
+            values.len() == self.errors.len()
+                && values.iter().all(|value| value.is_finite() && *value >= 0.0)
+                && values.is_sorted()
+        };
+        match self.deviations.iter().position(|deviation| !is_good(&deviation.values)) {
+            Some(deviation) => Err(HistoryError::Deviation { deviation }),
+            None => Ok(()),
+        }
+    }
+
     fn check_errors(&self) -> Result<(), HistoryError> {
         if self.errors.is_empty() {
             return Err(HistoryError::NoSteps);
@@ -211,6 +230,7 @@ mod tests {
             vertex_birth: vec![],
             vertex_death: vec![NEVER, NEVER, 1, NEVER],
             errors: vec![0.0, 0.5],
+            deviations: vec![],
         }
     }
 

@@ -25,6 +25,7 @@ pub const LEVEL_RATIO: f64 = 63.0 / 64.0;
 ///     vertex_birth: vec![],
 ///     vertex_death: vec![NEVER, NEVER, 1, NEVER],
 ///     errors: vec![0.0, 0.5],
+///     deviations: vec![],
 /// };
 /// let levels = Levels::choose(&history, None)?;
 /// assert_eq!(levels.steps(), [0, 1]);
@@ -42,9 +43,10 @@ pub struct Levels {
 impl Levels {
     /// Chooses the levels of a history that passes [`History::check`].
     ///
-    /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the
-    /// others; the last step of the history is kept. `limit` is the largest number of levels; 1 (or 0) keeps the input
-    /// only, and a large one keeps every step that removes a simplex. Cost: one pass over simplices and steps.
+    /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the others,
+    /// unless the history states deviations as well; the last step of the history is kept. `limit` is the largest number of
+    /// levels; 1 (or 0) keeps the input only, and a large one keeps every step that removes a simplex. Cost: one pass over
+    /// simplices and steps.
     ///
     /// # Errors
     ///
@@ -54,7 +56,10 @@ impl Levels {
         limit: Option<u32>,
     ) -> Result<Self, HistoryError> {
         let alive = alive_counts(history);
-        let steps = choose_steps(&history.errors, &alive, limit);
+        // Deviations are maxima over the mesh and the error is the boundary's: all stand still while the mesh changes elsewhere.
+        let is_always = !history.deviations.is_empty();
+        let rises = |step: usize| is_always || history.errors[step + 1] > history.errors[step];
+        let steps = choose_steps(rises, &alive, limit);
         let simplex_counts: Vec<u32> = steps.iter().map(|&step| alive[step as usize]).collect();
         for (level, pair) in simplex_counts.windows(2).enumerate() {
             if pair[1] > pair[0] {
@@ -125,7 +130,8 @@ fn alive_counts<const CORNERS: usize>(history: &History<CORNERS>) -> Vec<u32> {
     alive
 }
 
-fn choose_steps(errors: &[f64], alive: &[u32], limit: Option<u32>) -> Vec<u32> {
+/// `rises` tells whether a step is a choice beside the step after it.
+fn choose_steps(rises: impl Fn(usize) -> bool, alive: &[u32], limit: Option<u32>) -> Vec<u32> {
     let mut steps = vec![0];
     let (Some(&finest), Some(&coarsest)) = (alive.first(), alive.last()) else { return steps };
     if limit.is_some_and(|limit| limit <= 1) || alive.len() == 1 {
@@ -140,8 +146,8 @@ fn choose_steps(errors: &[f64], alive: &[u32], limit: Option<u32>) -> Vec<u32> {
         |count: u32| if span > 0.0 { (octaves(finest, count) / span * n_intervals).floor() } else { 0.0 };
 
     let mut last_interval = 0.0;
-    for (step, pair) in (1u32..).zip(errors.windows(2).skip(1)) {
-        let is_last_of_equals = pair[1] > pair[0];
+    for step in (1u32..).take(alive.len() - 2) {
+        let is_last_of_equals = rises(step as usize);
         let this_interval = interval(alive[step as usize]);
         if is_last_of_equals && this_interval > last_interval {
             steps.push(step);
@@ -168,6 +174,10 @@ fn octaves(finest: u32, count: u32) -> f64 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    fn choose_steps(errors: &[f64], alive: &[u32], limit: Option<u32>) -> Vec<u32> {
+        super::choose_steps(|step| errors[step + 1] > errors[step], alive, limit)
+    }
 
     /// Two triangles fewer per step, as when an interior vertex is removed.
     fn halving(n_steps: u32) -> (Vec<f64>, Vec<u32>) {
@@ -256,6 +266,7 @@ mod tests {
             vertex_birth: vec![],
             vertex_death: vec![NEVER; 3],
             errors: vec![0.0, 1.0, 1.0, 2.0],
+            deviations: vec![],
         };
         let levels = Levels::choose(&history, Some(3)).unwrap();
         assert_eq!(levels.steps(), [0, 3]);

@@ -20,6 +20,7 @@ pub const NEVER: u32 = u32::MAX;
 /// Shapes: `simplices`, `birth` and `death` run in parallel, in order of death;
 /// `vertex_death[v]` belongs to vertex `v`, those of the input first; `vertex_birth` is as long, or empty where every vertex is
 /// one of the input; `errors.len() == n_steps + 1`.
+/// `deviations[i].values.len() == errors.len()`.
 /// Invariants: `birth < death` for simplices and vertices; a simplex uses only vertices that are born no later and die no
 /// earlier than it does; `errors` never falls.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,4 +37,16 @@ pub struct History<const CORNERS: usize = 3> {
     pub vertex_death: Vec<u32>,
     /// Error of the mesh at each step, in mesh units; `errors[0]` is that of the input itself.
     pub errors: Vec<f64>,
+    /// What else a decimator states of each step beside the error, if anything.
+    pub deviations: Vec<Deviation>,
+}
+
+/// An estimate that a decimator states of each step beside the error, such as how far a field has come from that of the
+/// input.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// What deviates: the name of a field.
+    pub name: String,
+    /// Its value at each step, as many as errors; finite, not negative, never falling.
+    pub values: Vec<f64>,
 }

@@ -12,7 +12,9 @@
 mod batch;
 mod bvh;
 mod error;
+mod fields;
 mod histogram;
+mod locator;
 mod pair;
 mod polygon;
 mod prove;
@@ -23,6 +25,7 @@ mod surface;
 mod sweep;
 
 pub use self::error::{MeasureError, Side};
+pub use self::fields::{FieldDistance, measure_fields};
 pub use self::histogram::Histogram;
 use self::pair::{Pair, measure_one_sided};
 use self::prove::{Bracket, Goal, Parts};

@@ -10,6 +10,8 @@ mod repair;
 mod seams;
 mod stars;
 mod surface;
+mod tetra_repair;
+mod tetrahedra;
 
 pub use filling::Filling;
 pub use hole::{Hole, MAX_VALENCE, NoHole};
@@ -17,3 +19,5 @@ pub use repair::{RepairReport, Repaired, repair};
 pub use seams::Seams;
 pub use stars::Stars;
 pub use surface::Surface;
+pub use tetra_repair::{TetrahedronRepairReport, repair_tetrahedra};
+pub use tetrahedra::{FACES, Tetrahedra, boundary_triangles};

@@ -59,6 +59,11 @@ impl<'a> Cut<'a> {
         self.runs().map(|run| run.len as usize).sum()
     }
 
+    /// Simplices in all runs: triangles of a surface, tetrahedra of a volume.
+    pub fn n_simplices(&self) -> usize {
+        self.n_triangles()
+    }
+
     /// Vertex indices in all runs: what [`extract_into`](Self::extract_into) writes.
     pub fn n_indices(&self) -> usize {
         self.n_triangles() * self.lod.n_corners() as usize

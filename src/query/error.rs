@@ -18,6 +18,12 @@ pub enum QueryError {
         /// Corners per simplex.
         found: u32,
     },
+    /// The file holds simplices of another kind.
+    #[error("file holds simplices with {found} corners, not tetrahedra")]
+    NotTetrahedra {
+        /// Corners per simplex.
+        found: u32,
+    },
     /// The file is damaged: a vertex index is outside the vertices of the level.
     #[error("file is damaged: vertex index {found} at a level of {vertex_count} vertices")]
     VertexIndex {

@@ -89,6 +89,12 @@ impl Lod {
         self.file.errors()
     }
 
+    /// What the levels state beside their errors, such as how far each field of a volume has come from that of the input: name
+    /// and a number per level, never falling. These are estimates.
+    pub fn deviations(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.file.deviations()
+    }
+
     /// The whole curve, finest level first. Cost: in a file with [births](Self::vertex_births) one pass over them and 4 bytes
     /// per level.
     pub fn curve(&self) -> impl ExactSizeIterator<Item = CurvePoint> + '_ {

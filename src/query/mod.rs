@@ -14,6 +14,7 @@ mod patches;
 mod picker;
 mod used;
 mod view;
+mod volume;
 
 pub use cut::Cut;
 pub use delta::Delta;

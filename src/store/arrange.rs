@@ -1,8 +1,8 @@
 //! The order of vertices, and the order of simplices on the surface.
 
+use super::Vertices;
 use crate::History;
 use crate::history::Levels;
-use nephrite_formats::TriangleMesh;
 use rayon::prelude::*;
 
 /// Vertices by the level at which they die, latest first, neighbours on the surface together. Those that no level sees are
@@ -23,13 +23,13 @@ pub(super) struct VertexOrder {
 impl VertexOrder {
     /// `history` passes its check and has the vertices of `mesh`.
     pub(super) fn new<const CORNERS: usize>(
-        mesh: &TriangleMesh,
+        mesh: Vertices<'_>,
         history: &History<CORNERS>,
         levels: &Levels,
     ) -> Self {
-        let grid = Grid::around(&mesh.positions);
+        let grid = Grid::around(mesh.positions);
         let mut keys: Vec<(u32, u64, u32)> = (0u32..)
-            .zip(&mesh.positions)
+            .zip(mesh.positions)
             .zip(&history.vertex_death)
             .filter_map(|((vertex, &position), &death)| {
                 let lifetime = levels.lifetime(history.vertex_birth(vertex), death)?;

@@ -1,10 +1,10 @@
 //! The attribute sections of a new file.
 
-use super::WriteError;
+use super::{Vertices, WriteError};
+use nephrite_formats::Attribute;
 use nephrite_formats::neph::{
     AttributeRecord, MAX_ATTRIBUTE_NAMES_BYTES, MAX_ATTRIBUTES, align, scalar_code,
 };
-use nephrite_formats::{Attribute, TriangleMesh};
 use std::collections::HashSet;
 
 /// Attribute table and names, and the length of the values.
@@ -16,11 +16,11 @@ pub(super) struct AttributeSections {
 
 impl AttributeSections {
     /// The attributes of `mesh` for `n_stored` of its vertices.
-    pub(super) fn new(mesh: &TriangleMesh, n_stored: usize) -> Result<Self, WriteError> {
+    pub(super) fn new(mesh: Vertices<'_>, n_stored: usize) -> Result<Self, WriteError> {
         let n_vertices = mesh.positions.len() as u64;
         let mut sections = Self { table: Vec::new(), names: Vec::new(), values_bytes: 0 };
         let mut seen = HashSet::new();
-        for attribute in &mesh.attributes {
+        for attribute in mesh.attributes {
             let error = |what, found, expected| {
                 Err(WriteError::Attribute { name: attribute.name.clone(), what, found, expected })
             };

@@ -74,6 +74,16 @@ pub enum WriteError {
         /// How many a file holds.
         max: u64,
     },
+    /// More deviations, or longer names of them, than a file holds.
+    #[error("{found} {what}, at most {max} are possible")]
+    TooManyDeviations {
+        /// `deviations`, `bytes of deviation names` or `zero bytes in names of deviations`.
+        what: &'static str,
+        /// How many.
+        found: u64,
+        /// How many a file holds.
+        max: u64,
+    },
     /// The metadata is no JSON, as when a map has keys that are no strings.
     #[error("metadata cannot be written as JSON")]
     Metadata(#[from] serde_json::Error),
@@ -170,6 +180,12 @@ pub enum VerifyError {
         found: f64,
         /// Error of the level before, or zero.
         before: f64,
+    },
+    /// A deviation is negative or not finite, falls, or has no name of its own.
+    #[error("deviation {deviation} is not one number per level that never falls, under a name")]
+    Deviation {
+        /// Which one.
+        deviation: usize,
     },
     /// A count of simplices or vertices rises from one level to the next, or is not the one the rest of the file gives.
     #[error("level {level} has {found} {what} where {expected} are possible")]

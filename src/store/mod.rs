@@ -20,6 +20,7 @@ mod opened;
 mod pieces;
 mod publish;
 mod verify;
+mod vertices;
 mod write;
 
 pub use compact::CompactFault;
@@ -27,4 +28,5 @@ pub use error::{OpenError, VerifyError, WriteError};
 pub use metadata::{Metadata, Provenance};
 pub use opened::{AttributeView, Opened};
 pub use publish::write;
+pub use vertices::Vertices;
 pub use write::{StoreOptions, StoreReport, write_to};

@@ -112,6 +112,15 @@ impl Opened {
         self.section(SectionKind::VertexBirths)
     }
 
+    /// What the levels state beside their errors: each with its name, a number per level. As many as there are both names and
+    /// numbers for.
+    pub fn deviations(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        let names: &[u8] = self.section(SectionKind::DeviationNames);
+        let values: &[f64] = self.section(SectionKind::Deviations);
+        let names = names.split(|&byte| byte == 0).map(|name| std::str::from_utf8(name).unwrap_or_default());
+        names.zip(values.chunks_exact(self.header().n_levels.max(1) as usize))
+    }
+
     /// Positions of all vertices.
     pub fn positions(&self) -> &[[f32; 3]] {
         self.section(SectionKind::Positions)

@@ -1,9 +1,8 @@
 //! Publishing: a file appears at its path whole and checked, or not at all.
 
 use super::integrity::check_integrity;
-use super::{Provenance, StoreOptions, StoreReport, VerifyError, WriteError, write_to};
+use super::{Provenance, StoreOptions, StoreReport, VerifyError, Vertices, WriteError, write_to};
 use crate::History;
-use nephrite_formats::TriangleMesh;
 use nephrite_formats::neph::{Directory, MAX_HEAD_BYTES};
 use std::fs::File;
 use std::io::{self, Read};
@@ -34,6 +33,7 @@ use tempfile::NamedTempFile;
 ///     vertex_birth: vec![],
 ///     vertex_death: vec![NEVER, NEVER, 1, NEVER],
 ///     errors: vec![0.0, 0.5],
+///     deviations: vec![],
 /// };
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("quad.neph");
@@ -43,9 +43,9 @@ use tempfile::NamedTempFile;
 /// assert_eq!(lod.at_error(0.7).n_triangles(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write<const CORNERS: usize>(
+pub fn write<'a, const CORNERS: usize>(
     path: impl AsRef<Path>,
-    mesh: &TriangleMesh,
+    mesh: impl Into<Vertices<'a>>,
     history: &History<CORNERS>,
     provenance: &Provenance,
     options: &StoreOptions,

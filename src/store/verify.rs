@@ -30,6 +30,7 @@ impl Opened {
         self.check_padding()?;
         self.metadata()?;
         self.check_errors()?;
+        self.check_deviations()?;
         self.check_positions()?;
         self.check_vertex_counts()?;
         self.check_vertex_births()?;
@@ -70,6 +71,28 @@ impl Opened {
             before = found;
         }
         Ok(())
+    }
+
+    fn check_deviations(&self) -> Result<(), VerifyError> {
+        let (names, values) = [SectionKind::DeviationNames, SectionKind::Deviations]
+            .map(|kind| self.directory().section(kind))
+            .into();
+        let n_values = values.1 / (8 * u64::from(self.header().n_levels));
+        let start = usize::try_from(names.0).unwrap_or(usize::MAX);
+        let end = usize::try_from(names.0 + names.1).unwrap_or(usize::MAX);
+        let names = self.bytes().get(start..end).unwrap_or(&[]);
+        let n_names = names.iter().filter(|&&byte| byte == 0).count();
+        let is_ended = names.last().is_none_or(|&byte| byte == 0) && std::str::from_utf8(names).is_ok();
+        if n_names as u64 != n_values || !is_ended {
+            return Err(VerifyError::Deviation { deviation: n_names });
+        }
+        let is_good = |values: &[f64]| {
+            values.is_sorted() && values.iter().all(|value| value.is_finite() && *value >= 0.0)
+        };
+        match self.deviations().position(|(_, values)| !is_good(values)) {
+            Some(deviation) => Err(VerifyError::Deviation { deviation }),
+            None => Ok(()),
+        }
     }
 
     fn check_positions(&self) -> Result<(), VerifyError> {

@@ -5,14 +5,14 @@ use super::attributes::AttributeSections;
 use super::body::BodyWriter;
 use super::compact::CompactSlots;
 use super::pieces::Pieces;
-use super::{Metadata, Provenance, WriteError};
+use super::{Metadata, Provenance, Vertices, WriteError};
 use crate::History;
 use crate::history::Levels;
 use crate::tree::{Layout, Run};
 use crate::vertex_cache::FanOrder;
-use nephrite_formats::TriangleMesh;
 use nephrite_formats::neph::{
-    self, CHUNK_BYTES, Header, MAGIC, MAX_METADATA_BYTES, Placement, SectionKind, VERSION,
+    self, CHUNK_BYTES, Header, MAGIC, MAX_DEVIATION_NAMES_BYTES, MAX_DEVIATIONS, MAX_METADATA_BYTES,
+    Placement, SectionKind, VERSION,
 };
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -58,13 +58,14 @@ pub struct StoreReport {
 ///
 /// [`WriteError`] when the history or an attribute does not fit the mesh, when the file would exceed a limit of the format,
 /// or when the stream refuses.
-pub fn write_to<const CORNERS: usize>(
+pub fn write_to<'a, const CORNERS: usize>(
     stream: &mut (impl Write + Seek),
-    mesh: &TriangleMesh,
+    mesh: impl Into<Vertices<'a>>,
     history: &History<CORNERS>,
     provenance: &Provenance,
     options: &StoreOptions,
 ) -> Result<StoreReport, WriteError> {
+    let mesh = mesh.into();
     check_mesh(mesh, history)?;
     history.check()?;
     let levels = Levels::choose(history, options.levels)?;
@@ -86,6 +87,7 @@ pub fn write_to<const CORNERS: usize>(
         run_offsets,
         runs,
         metadata,
+        deviation_names: deviation_names(history)?,
         attributes,
     };
     let placement = neph::plan(&content.section_bytes(), CHUNK_BYTES)?;
@@ -94,7 +96,7 @@ pub fn write_to<const CORNERS: usize>(
 }
 
 fn check_mesh<const CORNERS: usize>(
-    mesh: &TriangleMesh,
+    mesh: Vertices<'_>,
     history: &History<CORNERS>,
 ) -> Result<(), WriteError> {
     let (found, expected) = (history.vertex_death.len() as u64, mesh.positions.len() as u64);
@@ -115,13 +117,13 @@ fn check_mesh<const CORNERS: usize>(
 }
 
 fn lay_out<const CORNERS: usize>(
-    mesh: &TriangleMesh,
+    mesh: Vertices<'_>,
     pieces: &Pieces<'_, CORNERS>,
 ) -> Result<Layout, WriteError> {
     let n_levels = pieces.n_levels();
     let mut layout = Layout::build(n_levels, pieces.n_ids()?, |id| pieces.lifetime(id))?;
-    let grid = Grid::around(&mesh.positions);
-    layout.sort_groups_by_key(|id| grid.morton_of_centroid(&mesh.positions, pieces.vertices(id)));
+    let grid = Grid::around(mesh.positions);
+    layout.sort_groups_by_key(|id| grid.morton_of_centroid(mesh.positions, pieces.vertices(id)));
     let n_vertices = mesh.positions.len();
     layout.order_groups(|| FanOrder::new(n_vertices), |fans, group| order_by_fans(fans, group, pieces));
     Ok(layout)
@@ -145,9 +147,23 @@ fn metadata_bytes(provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
     Ok(metadata)
 }
 
+/// The names of the deviations, each ended by a zero byte.
+fn deviation_names<const CORNERS: usize>(history: &History<CORNERS>) -> Result<Vec<u8>, WriteError> {
+    let too_many = |what, found: usize, max| {
+        let found = found as u64;
+        if found > max { Err(WriteError::TooManyDeviations { what, found, max }) } else { Ok(()) }
+    };
+    let names = || history.deviations.iter().map(|deviation| deviation.name.as_bytes());
+    too_many("deviations", history.deviations.len(), MAX_DEVIATIONS)?;
+    too_many("zero bytes in names of deviations", names().filter(|name| name.contains(&0)).count(), 0)?;
+    let bytes: Vec<u8> = names().flat_map(|name| [name, b"\0"].concat()).collect();
+    too_many("bytes of deviation names", bytes.len(), MAX_DEVIATION_NAMES_BYTES)?;
+    Ok(bytes)
+}
+
 /// Everything that goes into the file, most of it by reference and in the order of the input.
 struct Content<'a, const CORNERS: usize> {
-    mesh: &'a TriangleMesh,
+    mesh: Vertices<'a>,
     history: &'a History<CORNERS>,
     levels: &'a Levels,
     pieces: Pieces<'a, CORNERS>,
@@ -157,6 +173,7 @@ struct Content<'a, const CORNERS: usize> {
     run_offsets: Vec<u64>,
     runs: Vec<Run>,
     metadata: Vec<u8>,
+    deviation_names: Vec<u8>,
     attributes: AttributeSections,
 }
 
@@ -173,6 +190,10 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             (SectionKind::RunOffsets, 8 * (n_levels + 1)),
             (SectionKind::Runs, 8 * self.runs.len() as u64),
         ];
+        if !self.history.deviations.is_empty() {
+            sections.push((SectionKind::DeviationNames, self.deviation_names.len() as u64));
+            sections.push((SectionKind::Deviations, 8 * n_levels * self.history.deviations.len() as u64));
+        }
         if !self.attributes.table.is_empty() {
             sections.push((SectionKind::AttributeTable, size_of_val(&self.attributes.table[..]) as u64));
             sections.push((SectionKind::AttributeNames, self.attributes.names.len() as u64));
@@ -236,6 +257,8 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             SectionKind::SimplexCounts => body.put(bytemuck::cast_slice(self.levels.simplex_counts())),
             SectionKind::VertexCounts => body.put(bytemuck::cast_slice(&self.vertices.counts)),
             SectionKind::VertexBirths => body.put(bytemuck::cast_slice(&self.vertices.births)),
+            SectionKind::DeviationNames => body.put(&self.deviation_names),
+            SectionKind::Deviations => body.put_each(self.deviations()),
             SectionKind::RunOffsets => body.put(bytemuck::cast_slice(&self.run_offsets)),
             SectionKind::Runs => body.put(bytemuck::cast_slice(&self.runs)),
             SectionKind::AttributeTable => body.put(bytemuck::cast_slice(&self.attributes.table)),
@@ -283,6 +306,12 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
 
     fn errors(&self) -> impl Iterator<Item = f64> + '_ {
         self.levels.steps().iter().map(|&step| self.history.errors[step as usize])
+    }
+
+    fn deviations(&self) -> impl Iterator<Item = f64> + '_ {
+        let steps = self.levels.steps();
+        let values = self.history.deviations.iter().map(|deviation| &deviation.values);
+        values.flat_map(move |values| steps.iter().map(move |&step| values[step as usize]))
     }
 
     fn stamps(&self) -> impl Iterator<Item = u32> + '_ {

@@ -59,6 +59,7 @@ pub fn decimate(mesh: &TriangleMesh, n_removals: usize, seed: u64) -> History<3>
         vertex_birth: vec![],
         vertex_death: vec![NEVER; n_vertices],
         errors: vec![0.0],
+        deviations: vec![],
     };
     let mut stars: Vec<Vec<u32>> = vec![Vec::new(); n_vertices];
     for (id, triangle) in (0..).zip(&mesh.triangles) {

@@ -42,6 +42,14 @@ pub(crate) enum Failure {
         /// The file named twice.
         path: PathBuf,
     },
+    /// The output's extension names a format for another kind of mesh.
+    #[error("{}: the extension is none of {kind}", path.display())]
+    Kind {
+        /// The output.
+        path: PathBuf,
+        /// `a volume` or `a surface`.
+        kind: &'static str,
+    },
     /// Somebody pressed Ctrl-C.
     #[error("interrupted, nothing was written")]
     Interrupted,

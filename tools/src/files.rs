@@ -2,10 +2,10 @@
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use nephrite::{Lod, TriangleMesh};
-use nephrite_formats::{MeshError, MeshFormat, ReadReport};
+use nephrite::{Lod, TetrahedronMesh, TriangleMesh};
+use nephrite_formats::{MeshError, MeshFormat, ReadReport, VolumeFormat, VolumeReport};
 
 use crate::failure::Failure;
 use crate::report;
@@ -21,6 +21,30 @@ pub(crate) fn read_mesh(path: &Path) -> Result<(TriangleMesh, ReadReport), Failu
         report::note(&format!("{}: {warning}", path.display()));
     }
     Ok((mesh, read))
+}
+
+/// Reads a volume, PLOT3D with its solutions, and tells on stderr what its reader had to decide.
+///
+/// # Errors
+///
+/// Whatever is wrong with the files.
+pub(crate) fn read_volume(
+    path: &Path,
+    solutions: &[PathBuf],
+) -> Result<(TetrahedronMesh, VolumeReport), Failure> {
+    let (mesh, read) = match solutions {
+        [] => nephrite_formats::read_volume(path)?,
+        solutions => nephrite_formats::read_plot3d(path, solutions)?,
+    };
+    for warning in &read.warnings {
+        report::note(&format!("{}: {warning}", path.display()));
+    }
+    Ok((mesh, read))
+}
+
+/// Whether a path names a volume by its extension.
+pub(crate) fn is_volume(path: &Path) -> bool {
+    VolumeFormat::from_path(path).is_some()
 }
 
 /// Opens a file that `build` wrote. It is read, not mapped: nobody vouches for a path from a command line.
@@ -65,6 +89,19 @@ pub(crate) fn check_mesh_output(output: &Path, inputs: &[&Path]) -> Result<(), F
     if MeshFormat::from_path(output).is_none_or(|format| format == MeshFormat::Gltf) {
         let extension = output.extension().unwrap_or_default().to_string_lossy().into_owned();
         return Err(MeshError::UnknownExtension { extension }.in_file(output).into());
+    }
+    check_output(output, inputs)
+}
+
+/// As [`check_output`], and that the extension names a volume format that can be written.
+///
+/// # Errors
+///
+/// As [`check_output`], or an extension without a writer.
+pub(crate) fn check_volume_output(output: &Path, inputs: &[&Path]) -> Result<(), Failure> {
+    if VolumeFormat::from_path(output).is_none_or(|format| !format.is_written()) {
+        let extension = output.extension().unwrap_or_default().to_string_lossy().into_owned();
+        return Err(MeshError::UnknownVolumeExtension { extension }.in_file(output).into());
     }
     check_output(output, inputs)
 }

@@ -1,9 +1,9 @@
 //! Reading the head of a file: header and directory, checked against each other and against the file's length.
 
 use super::{
-    HEADER_BYTES, Header, MAGIC, MAX_ATTRIBUTE_NAMES_BYTES, MAX_ATTRIBUTES, MAX_HEAD_BYTES, MAX_LEVELS,
-    MAX_METADATA_BYTES, NephError, REQUIRED, SECTION_RECORD_BYTES, SectionKind, SectionRecord, VERSION,
-    align, head_checksum,
+    HEADER_BYTES, Header, MAGIC, MAX_ATTRIBUTE_NAMES_BYTES, MAX_ATTRIBUTES, MAX_DEVIATION_NAMES_BYTES,
+    MAX_DEVIATIONS, MAX_HEAD_BYTES, MAX_LEVELS, MAX_METADATA_BYTES, NephError, REQUIRED,
+    SECTION_RECORD_BYTES, SectionKind, SectionRecord, VERSION, align, head_checksum,
 };
 use std::ops::Range;
 
@@ -82,6 +82,8 @@ impl Directory {
             (SectionKind::Runs, 8 * 32 * n_levels, 8),
             (SectionKind::AttributeTable, 32 * MAX_ATTRIBUTES, 32),
             (SectionKind::AttributeNames, MAX_ATTRIBUTE_NAMES_BYTES, 1),
+            (SectionKind::DeviationNames, MAX_DEVIATION_NAMES_BYTES, 1),
+            (SectionKind::Deviations, 8 * MAX_DEVIATIONS * n_levels, 8 * n_levels),
         ];
         for (kind, expected) in exact {
             let found = self.section(kind).1;

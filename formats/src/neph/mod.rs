@@ -20,8 +20,8 @@ pub use directory::{Directory, index_bytes, stamp_bytes};
 pub use error::NephError;
 pub use header::{CHUNK_BYTES, HEADER_BYTES, Header, MAGIC, MAX_HEAD_BYTES, MAX_LEVELS, VERSION};
 pub use section::{
-    MAX_METADATA_BYTES, Placement, REQUIRED, SECTION_ALIGNMENT, SECTION_RECORD_BYTES, SectionKind,
-    SectionRecord, align, plan,
+    MAX_DEVIATION_NAMES_BYTES, MAX_DEVIATIONS, MAX_METADATA_BYTES, Placement, REQUIRED, SECTION_ALIGNMENT,
+    SECTION_RECORD_BYTES, SectionKind, SectionRecord, align, plan,
 };
 
 #[cfg(target_endian = "big")]

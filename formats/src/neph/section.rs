@@ -52,11 +52,20 @@ pub enum SectionKind {
     RepeatSources = 17,
     /// Compact form: a stamp per slot.
     CompactStamps = 18,
+    /// UTF-8, each name ended by a zero byte.
+    DeviationNames = 19,
+    /// `f64` per level, one deviation after the other.
+    Deviations = 20,
 }
+
+/// Most deviations in one file.
+pub const MAX_DEVIATIONS: u64 = 1024;
+/// Most bytes that all names of deviations take together.
+pub const MAX_DEVIATION_NAMES_BYTES: u64 = 64 * 1024;
 
 impl SectionKind {
     /// Every kind of version 1, in the order of their numbers.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::Metadata,
         Self::Errors,
         Self::SimplexCounts,
@@ -75,6 +84,8 @@ impl SectionKind {
         Self::RepeatBits,
         Self::RepeatSources,
         Self::CompactStamps,
+        Self::DeviationNames,
+        Self::Deviations,
     ];
 
     /// The sections that hold the slots in the plain form.
@@ -98,7 +109,12 @@ impl SectionKind {
     pub fn is_required(self) -> bool {
         !matches!(
             self,
-            Self::AttributeTable | Self::AttributeNames | Self::AttributeValues | Self::VertexBirths
+            Self::AttributeTable
+                | Self::AttributeNames
+                | Self::AttributeValues
+                | Self::VertexBirths
+                | Self::DeviationNames
+                | Self::Deviations
         )
     }
 }

@@ -10,6 +10,7 @@ use nephrite::{Bound, Build, BuildError, BuildOptions, Method, TriangleMesh};
 use nephrite_formats::ReadReport;
 use serde_json::{Value, json};
 
+use super::build_volume::{FusionArguments, Request};
 use crate::failure::Failure;
 use crate::length::{Length, LengthError};
 use crate::progress::BuildBar;
@@ -20,7 +21,7 @@ use crate::{figures, files, interrupt};
 /// Turn a mesh into a file that holds every level of detail of it.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Mesh to read: PLY, OBJ, STL, OFF, glTF or GLB
+    /// Mesh to read: PLY, OBJ, STL, OFF, glTF or GLB; or a volume: VTU, VTK, Gmsh, MEDIT, TetGen or PLOT3D
     mesh: PathBuf,
 
     /// File to write
@@ -49,11 +50,11 @@ pub(crate) struct Arguments {
     #[arg(long)]
     compact: bool,
 
-    /// Angle between the normals at an edge, in degrees, from which the edge is a feature
-    #[arg(long, value_name = "DEG", default_value_t = 60.0, value_parser = angle)]
-    feature_angle: f64,
+    /// Angle between the normals at an edge, in degrees, from which the edge is a feature; 60 by default, 40 for volumes
+    #[arg(long, value_name = "DEG", value_parser = angle)]
+    feature_angle: Option<f64>,
 
-    /// Decimator
+    /// Decimator; volumes are always fused
     #[arg(long, value_enum, default_value_t = MethodName::Jade)]
     method: MethodName,
 
@@ -62,6 +63,9 @@ pub(crate) struct Arguments {
 
     #[command(flatten)]
     jade: JadeArguments,
+
+    #[command(flatten)]
+    fusion: FusionArguments,
 }
 
 /// Constants of the JADE decimator, by their names in the paper.
@@ -95,6 +99,8 @@ struct JadeArguments {
 enum MethodName {
     /// Vertex removal with retriangulation under a global error bound
     Jade,
+    /// Fusion of tetrahedra, for volumes
+    Fusion,
 }
 
 /// The bounds, as they are typed.
@@ -114,6 +120,7 @@ impl From<MethodName> for Method {
     fn from(name: MethodName) -> Self {
         match name {
             MethodName::Jade => Self::Jade,
+            MethodName::Fusion => Self::Fusion,
         }
     }
 }
@@ -164,8 +171,27 @@ impl Arguments {
             method: self.method.into(),
             bound: self.bound.into(),
             max_error: self.max_error.map(|length| length.in_mesh_units(bounding_diagonal)),
-            feature_angle_degrees: self.feature_angle,
+            feature_angle_degrees: self
+                .feature_angle
+                .unwrap_or(BuildOptions::default().feature_angle_degrees),
             jade: JadeOptions { k, c1, c2, aspect_loss },
+        }
+    }
+}
+
+impl Arguments {
+    fn stored(&self) -> StoreOptions {
+        StoreOptions { levels: self.levels, window_levels: self.window_levels, is_compact: self.compact }
+    }
+
+    fn volume(&self) -> Request<'_> {
+        Request {
+            input: &self.mesh,
+            output: &self.output,
+            max_error: self.max_error,
+            feature_angle: self.feature_angle,
+            stored: self.stored(),
+            fusion: &self.fusion,
         }
     }
 }
@@ -175,6 +201,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     interrupt::listen();
     files::check_output(&arguments.output, &[&arguments.mesh])?;
     arguments.threads.run(|| {
+        if arguments.method == MethodName::Fusion || files::is_volume(&arguments.mesh) {
+            return arguments.volume().run();
+        }
         let (mesh, read) = files::read_mesh(&arguments.mesh)?;
         interrupt::check()?;
         let bounding_diagonal = nephrite::bounding_diagonal(&mesh);
@@ -214,11 +243,7 @@ fn write(
         options: json!(options),
         repairs: json!(build.repairs),
     };
-    let stored = StoreOptions {
-        levels: arguments.levels,
-        window_levels: arguments.window_levels,
-        is_compact: arguments.compact,
-    };
+    let stored = arguments.stored();
     store::write(&arguments.output, &build.mesh, &build.history, &provenance, &stored)
         .map_err(|source| Failure::file(&arguments.output, source))
 }

@@ -4,8 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use nephrite::{Cut, Lod};
-use serde_json::json;
+use nephrite::query::QueryError;
+use nephrite::volume::Plane;
+use nephrite::{Cut, Lod, TetrahedronMesh, TriangleMesh};
+use nephrite_formats::MeshError;
+use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::length::Length;
@@ -18,9 +21,17 @@ pub(crate) struct Arguments {
     /// File that `build` wrote
     file: PathBuf,
 
-    /// Mesh to write; its extension chooses the format: ply, obj, stl, off or glb
+    /// Mesh to write; its extension chooses the format: ply, obj, stl, off or glb, for volumes vtu or vtk
     #[arg(short, long, value_name = "MESH")]
     output: PathBuf,
+
+    /// Of a volume, only the surface around it, as a mesh of triangles
+    #[arg(long)]
+    boundary: bool,
+
+    /// Of a volume, only where it meets the plane A x + B y + C z = D, as a mesh of triangles
+    #[arg(long, value_name = "A,B,C,D", value_parser = plane, allow_hyphen_values = true, conflicts_with = "boundary")]
+    slice: Option<Plane>,
 
     #[command(flatten)]
     selector: Selector,
@@ -35,7 +46,7 @@ struct Selector {
     error: Option<Length>,
 
     /// The finest level with at most this many triangles; the coarsest one where none is that small
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", visible_alias = "tetrahedra")]
     triangles: Option<u32>,
 
     /// This level: 0 is the input
@@ -72,35 +83,94 @@ impl Selector {
     }
 }
 
+fn plane(text: &str) -> Result<Plane, &'static str> {
+    const EXPECTED: &str = "expected four numbers A,B,C,D, the first three not all zero";
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|word| word.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let Some(&[a, b, c, offset]) = numbers.as_deref() else { return Err(EXPECTED) };
+    let normal = [a, b, c];
+    if normal == [0.0; 3] { Err(EXPECTED) } else { Ok(Plane { normal, offset }) }
+}
+
+/// What is written of a level.
+enum Part {
+    Surface(TriangleMesh),
+    Volume(TetrahedronMesh),
+}
+
+impl Part {
+    fn of(cut: &Cut<'_>, arguments: &Arguments) -> Result<Self, QueryError> {
+        Ok(match arguments.slice {
+            Some(plane) => Self::Surface(cut.slice(&plane)?),
+            None if arguments.boundary => Self::Surface(cut.boundary()?),
+            None if cut.lod().n_corners() == 4 => Self::Volume(cut.to_volume()?),
+            None => Self::Surface(cut.to_mesh()?),
+        })
+    }
+
+    fn write(&self, output: &Path) -> Result<(), MeshError> {
+        match self {
+            Self::Surface(mesh) => nephrite_formats::write_mesh(output, mesh),
+            Self::Volume(mesh) => nephrite_formats::write_volume(output, mesh),
+        }
+    }
+
+    /// Simplices and vertices, and the corners of a simplex.
+    fn sizes(&self) -> (usize, usize, u32) {
+        match self {
+            Self::Surface(mesh) => (mesh.triangles.len(), mesh.positions.len(), 3),
+            Self::Volume(mesh) => (mesh.tetrahedra.len(), mesh.positions.len(), 4),
+        }
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    let Arguments { file, output, selector } = arguments;
+    let Arguments { file, output, selector, boundary, slice } = arguments;
     let start = Instant::now();
     interrupt::listen();
-    files::check_mesh_output(output, &[file])?;
+    if files::is_volume(output) {
+        files::check_volume_output(output, &[file])?;
+    } else {
+        files::check_mesh_output(output, &[file])?;
+    }
     let lod = files::open_lod(file)?;
+    let is_volume = lod.n_corners() == 4 && !boundary && slice.is_none();
+    if is_volume != files::is_volume(output) {
+        let kind = if is_volume { "a volume" } else { "a surface" };
+        return Err(Failure::Kind { path: output.clone(), kind });
+    }
     let cut = selector.cut(file, &lod)?;
-    let mesh = cut.to_mesh().map_err(|source| Failure::file(file, source))?;
+    let part = Part::of(&cut, arguments).map_err(|source| Failure::file(file, source))?;
     interrupt::check()?;
-    nephrite_formats::write_mesh(output, &mesh)?;
+    part.write(output)?;
     let seconds = start.elapsed();
-    Ok(Report {
+    let (n_simplices, n_vertices, n_corners) = part.sizes();
+    let report = Report {
         text: format!(
             "{}: {} triangles, {} vertices, error {}, level {}, {}\n",
             output.display(),
-            figures::count(mesh.triangles.len()),
-            figures::count(mesh.positions.len()),
+            figures::count(n_simplices),
+            figures::count(n_vertices),
             figures::error(cut.error(), lod.bounding_diagonal()),
             cut.level(),
             figures::time(seconds)
         ),
         json: json!({
-            "triangles": mesh.triangles.len(),
-            "vertices": mesh.positions.len(),
+            "triangles": n_simplices,
+            "vertices": n_vertices,
             "error": cut.error(),
+            "deviations": deviations(&cut),
             "level": cut.level(),
             "runs": cut.n_runs(),
             "bounding_diagonal": lod.bounding_diagonal(),
             "seconds": seconds.as_secs_f64(),
         }),
-    })
+    };
+    Ok(report.of_simplices(n_corners))
+}
+
+/// What the level states beside its error, by name.
+fn deviations(cut: &Cut<'_>) -> Value {
+    let deviations = cut.lod().deviations();
+    deviations.map(|(name, values)| (name.to_owned(), json!(values.get(cut.level() as usize)))).collect()
 }

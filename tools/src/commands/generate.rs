@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Subcommand, value_parser};
-use nephrite::TriangleMesh;
 use nephrite::generate;
+use nephrite::{TetrahedronMesh, TriangleMesh};
 use serde_json::json;
 
 use crate::failure::Failure;
@@ -105,6 +105,22 @@ enum Kind {
         #[command(flatten)]
         to: Output,
     },
+    /// The box [0, 1]^3 in tetrahedra, with a linear field
+    Box {
+        /// Hexahedra along each edge, cut into five tetrahedra each
+        #[arg(long, default_value_t = 20, value_parser = counts(1, 400))]
+        cells: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// The unit ball in tetrahedra, with the distance from the centre as a field
+    Ball {
+        /// Hexahedra across it, cut into five tetrahedra each
+        #[arg(long, default_value_t = 24, value_parser = counts(1, 400))]
+        cells: u32,
+        #[command(flatten)]
+        to: Output,
+    },
     /// A Moebius strip of width 0.8 around the unit circle
     Moebius {
         /// Cells along the strip
@@ -118,6 +134,12 @@ enum Kind {
     },
 }
 
+/// A surface or a volume.
+enum Generated {
+    Surface(TriangleMesh),
+    Volume(TetrahedronMesh),
+}
+
 impl Kind {
     fn to(&self) -> &Output {
         match self {
@@ -128,12 +150,16 @@ impl Kind {
             | Self::Plate { to, .. }
             | Self::Cube { to, .. }
             | Self::Cylinder { to, .. }
+            | Self::Box { to, .. }
+            | Self::Ball { to, .. }
             | Self::Moebius { to, .. } => to,
         }
     }
 
-    fn mesh(&self) -> TriangleMesh {
-        match *self {
+    fn generate(&self) -> Generated {
+        Generated::Surface(match *self {
+            Self::Box { cells, .. } => return Generated::Volume(generate::box_volume([cells; 3])),
+            Self::Ball { cells, .. } => return Generated::Volume(generate::ball_volume(cells)),
             Self::Cosine { side, .. } => generate::cosine(side),
             Self::Sphere { triangles, .. } => generate::sphere(generate::sphere_frequency(triangles)),
             Self::Torus { segments, sides, .. } => generate::torus(segments, sides),
@@ -142,7 +168,7 @@ impl Kind {
             Self::Cube { segments, .. } => generate::cuboid(segments),
             Self::Cylinder { segments, rings, .. } => generate::cylinder(segments, rings),
             Self::Moebius { segments, rows, .. } => generate::moebius(segments, rows),
-        }
+        })
     }
 }
 
@@ -150,22 +176,36 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let Output { output } = arguments.kind.to();
     let start = Instant::now();
     interrupt::listen();
-    files::check_mesh_output(output, &[])?;
-    let mesh = arguments.kind.mesh();
+    let is_volume = matches!(arguments.kind, Kind::Box { .. } | Kind::Ball { .. });
+    if is_volume {
+        files::check_volume_output(output, &[])?;
+    } else {
+        files::check_mesh_output(output, &[])?;
+    }
+    let generated = arguments.kind.generate();
     interrupt::check()?;
-    nephrite_formats::write_mesh(output, &mesh)?;
-    let [n_triangles, n_vertices] = [mesh.triangles.len(), mesh.positions.len()];
-    Ok(Report {
+    let [n_simplices, n_vertices] = match &generated {
+        Generated::Surface(mesh) => {
+            nephrite_formats::write_mesh(output, mesh)?;
+            [mesh.triangles.len(), mesh.positions.len()]
+        }
+        Generated::Volume(mesh) => {
+            nephrite_formats::write_volume(output, mesh)?;
+            [mesh.tetrahedra.len(), mesh.positions.len()]
+        }
+    };
+    let report = Report {
         text: format!(
             "{}: {} triangles, {} vertices\n",
             output.display(),
-            figures::count(n_triangles),
+            figures::count(n_simplices),
             figures::count(n_vertices)
         ),
         json: json!({
-            "triangles": n_triangles,
+            "triangles": n_simplices,
             "vertices": n_vertices,
             "seconds": start.elapsed().as_secs_f64(),
         }),
-    })
+    };
+    Ok(report.of_simplices(if is_volume { 4 } else { 3 }))
 }

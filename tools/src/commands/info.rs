@@ -24,7 +24,8 @@ const SHOWN_LEVELS: usize = 24;
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let lod = files::open_lod(&arguments.file)?;
     let metadata = lod.metadata().map_err(|source| Failure::file(&arguments.file, source))?;
-    Ok(Report { text: text(arguments, &lod, &metadata), json: json(&lod, &metadata) })
+    let report = Report { text: text(arguments, &lod, &metadata), json: json(&lod, &metadata) };
+    Ok(report.of_simplices(lod.n_corners()))
 }
 
 fn json(lod: &Lod, metadata: &Metadata) -> Value {
@@ -51,8 +52,15 @@ fn json(lod: &Lod, metadata: &Metadata) -> Value {
         "bound": metadata.provenance.bound,
         "options": metadata.provenance.options,
         "repairs": metadata.provenance.repairs,
+        "deviations": deviations(lod),
         "curve": curve,
     })
+}
+
+/// What levels state beside their errors: at the coarsest level, and level by level.
+fn deviations(lod: &Lod) -> Vec<Value> {
+    let deviations = lod.deviations();
+    deviations.map(|(name, values)| json!({ "name": name, "max": values.last(), "levels": values })).collect()
 }
 
 fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {

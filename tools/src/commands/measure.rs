@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use nephrite::measure::{self, Distance, Histogram, MeasureOptions, OneSided};
+use nephrite::measure::{self, Distance, FieldDistance, Histogram, MeasureOptions, OneSided};
 use nephrite::{Attribute, ScalarType, TriangleMesh};
 use serde_json::{Value, json};
 
@@ -18,7 +18,7 @@ use crate::{figures, files, interrupt, ramp};
 /// Bars of the histogram.
 const N_BINS: usize = 128;
 
-/// Measure the two-sided distance between two surfaces, with a proven bracket.
+/// Measure the two-sided distance between two surfaces, or between those around two volumes, with a proven bracket.
 ///
 /// Mean and rms count what Metro counts: vertices, samples on edges and samples in triangles, each once. The bracket is
 /// a proof: the Hausdorff distance lies between its ends.
@@ -78,9 +78,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         files::check_output(plot, &inputs)?;
     }
     arguments.threads.run(|| {
-        let (reference, mesh) =
-            rayon::join(|| files::read_mesh(&arguments.reference), || files::read_mesh(&arguments.mesh));
-        let ((reference, _), (mesh, _)) = (reference?, mesh?);
+        let inputs_read = Inputs::read(inputs)?;
+        let Inputs { surfaces: [reference, mesh], fields, volumes } = inputs_read;
         interrupt::check()?;
         let failed =
             |source| Failure::file(format!("{} and {}", inputs[0].display(), inputs[1].display()), source);
@@ -104,11 +103,65 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             write(path, &picture).map_err(|source| Failure::file(path, source))?;
         }
         let n_triangles = [&reference, &mesh].map(|mesh| mesh.triangles.len());
-        Ok(Report {
-            text: text(inputs, n_triangles, &distance, seconds),
+        let mut report = Report {
+            text: text(inputs, n_triangles, &distance, seconds) + &fields_text(&fields),
             json: json(&distance, n_triangles, seconds),
-        })
+        };
+        if let Some([volume_reference, volume]) = volumes {
+            report.json["volume_reference"] = json!(volume_reference);
+            report.json["volume"] = json!(volume);
+            report.json["fields"] = json!(fields);
+        }
+        Ok(report)
     })?
+}
+
+/// Two surfaces, or what is measured of two volumes: the surfaces around them and their fields.
+struct Inputs {
+    surfaces: [TriangleMesh; 2],
+    fields: Vec<FieldDistance>,
+    /// The contents of volumes, in cubic mesh units.
+    volumes: Option<[f64; 2]>,
+}
+
+impl Inputs {
+    fn read([reference, mesh]: [&Path; 2]) -> Result<Self, Failure> {
+        if !files::is_volume(reference) || !files::is_volume(mesh) {
+            let (reference, mesh) = rayon::join(|| files::read_mesh(reference), || files::read_mesh(mesh));
+            let surfaces = [reference?.0, mesh?.0];
+            return Ok(Self { surfaces, fields: Vec::new(), volumes: None });
+        }
+        let volumes = [files::read_volume(reference, &[])?.0, files::read_volume(mesh, &[])?.0];
+        Ok(Self {
+            surfaces: [nephrite::volume::boundary(&volumes[0]), nephrite::volume::boundary(&volumes[1])],
+            fields: measure::measure_fields(&volumes[0], &volumes[1]),
+            volumes: Some(volumes.map(|volume| volume.volume())),
+        })
+    }
+}
+
+/// A table of the fields of volumes, nothing where there are none.
+fn fields_text(fields: &[FieldDistance]) -> String {
+    if fields.is_empty() {
+        return String::new();
+    }
+    let row = |field: &FieldDistance| {
+        let share = figures::percent(field.max, field.range);
+        let lengths = [field.max_forward, field.max_backward, field.rms].map(figures::significant);
+        let [forward, backward, rms] = lengths;
+        [
+            field.name.clone(),
+            figures::significant(field.max),
+            share,
+            forward,
+            backward,
+            rms,
+            figures::count(field.n_outside),
+        ]
+    };
+    let rows: Vec<_> = fields.iter().map(row).collect();
+    let headings = ["field", "max", "% of range", "forward", "backward", "rms", "outside"];
+    format!("Fields, sampled at vertices:\n{}", figures::table(headings, &rows))
 }
 
 fn write(path: &Path, text: &str) -> io::Result<()> {

@@ -2,6 +2,7 @@
 
 mod bench;
 mod build;
+mod build_volume;
 mod completions;
 mod demo;
 mod extract;

@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let seconds = start.elapsed();
     let proven =
         n_proven.map_or(String::new(), |n| format!(", the errors of {} proven anew", figures::count(n)));
-    Ok(Report {
+    let report = Report {
         text: format!(
             "{}: in order, {} triangles in {} levels{proven}, {}\n",
             arguments.file.display(),
@@ -61,7 +61,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             "file_bytes": lod.file_bytes(),
             "seconds": seconds.as_secs_f64(),
         }),
-    })
+    };
+    Ok(report.of_simplices(lod.n_corners()))
 }
 
 /// Proves the errors of all levels, or of `n_wanted` levels from the second to the last; returns how many.

@@ -120,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         "All threads: {n_threads}. Misses: vertices transformed per triangle with a cache of {CACHE_LEN}, drawn as runs and as a copy \
          in cache order.\n"
     );
-    Ok(Report {
+    let report = Report {
         text: figures::table(headings, &rows) + &legend + &opening.text(),
         json: json!({
             "cuts": cuts.iter().map(Measured::json).collect::<Vec<_>>(),
@@ -129,7 +129,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             "open_seconds": opening.warm_seconds,
             "cold_open_seconds": opening.cold_seconds,
         }),
-    })
+    };
+    Ok(report.of_simplices(lod.n_corners()))
 }
 
 /// Seconds that reading the whole file and checking its head takes.

@@ -1,0 +1,18 @@
+//! Volume formats: files of cells, of which the tetrahedra are kept and other solids are cut into tetrahedra.
+
+mod cells;
+mod coning;
+mod format;
+mod gmsh;
+mod medit;
+mod pending;
+mod plot3d;
+mod report;
+mod scalars;
+mod tetgen;
+mod vtk;
+mod vtu;
+mod words;
+
+pub use format::{VolumeFormat, read_plot3d, read_volume, read_volume_bytes, write_volume, write_volume_to};
+pub use report::{VolumeReport, VolumeWarning};

@@ -1,0 +1,108 @@
+//! The parts of a volume as a reader finds them, put together at the end of the file.
+
+use super::cells::Cells;
+use super::scalars::{Numbers, points_f32};
+use super::{VolumeReport, VolumeWarning};
+use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
+use crate::{Attribute, MeshError, TetrahedronMesh};
+
+/// Points in the precision of the file.
+pub(super) enum Points {
+    F32(Vec<[f32; 3]>),
+    F64(Vec<[f64; 3]>),
+    /// `f64` from text, whose digits may be those of `f32`.
+    Text(Vec<[f64; 3]>),
+}
+
+impl Points {
+    /// Points from numbers, three each; what is left over is left out.
+    pub(super) fn new(numbers: &Numbers, is_text: bool) -> Self {
+        if let Some(points) = points_f32(numbers) {
+            return Self::F32(points);
+        }
+        let values: Vec<f64> = numbers.to_f64().collect();
+        let points = values.as_chunks::<3>().0.to_vec();
+        if is_text { Self::Text(points) } else { Self::F64(points) }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::F32(points) => points.len(),
+            Self::F64(points) | Self::Text(points) => points.len(),
+        }
+    }
+
+    fn into_coordinates(self) -> Result<Coordinates, MeshError> {
+        match self {
+            Self::F32(points) => from_f32(points),
+            Self::F64(points) => from_f64(&points),
+            Self::Text(points) => from_text(&points),
+        }
+    }
+}
+
+/// Fields in the order found.
+#[derive(Default)]
+pub(super) struct Fields {
+    fields: Vec<Attribute>,
+}
+
+impl Fields {
+    /// Adds a field for `n_points` vertices, by rule: one of the wrong length is left out, a second one of a name gets a
+    /// number behind it, 64-bit integers are narrowed. All of it is reported.
+    pub(super) fn push(
+        &mut self,
+        name: &str,
+        n_components: u32,
+        numbers: Numbers,
+        n_points: usize,
+        report: &mut VolumeReport,
+    ) {
+        let found = numbers.len() as u64;
+        let per_point = u64::from(n_components);
+        if n_components == 0 || found != n_points as u64 * per_point {
+            let (name, found) = (name.to_owned(), found / per_point.max(1));
+            report.warnings.push(VolumeWarning::FieldLength { name, found, expected: n_points as u64 });
+            return;
+        }
+        let name = if name.is_empty() { "field" } else { name };
+        let is_taken = |name: &str| self.fields.iter().any(|field| field.name == name);
+        let mut new_name = name.to_owned();
+        for number in 2_u64.. {
+            if !is_taken(&new_name) {
+                break;
+            }
+            new_name = format!("{name}_{number}");
+        }
+        if new_name != name {
+            let (name, new_name) = (name.to_owned(), new_name.clone());
+            report.warnings.push(VolumeWarning::FieldRenamed { name, new_name });
+        }
+        let (scalar, bytes, is_narrowed) = numbers.into_kept();
+        if is_narrowed {
+            let scalar = if scalar == crate::ScalarType::I32 { "i32" } else { "f64" };
+            report.warnings.push(VolumeWarning::FieldNarrowed { name: new_name.clone(), scalar });
+        }
+        self.fields.push(Attribute { name: new_name, scalar, n_components, bytes });
+    }
+}
+
+/// Puts the parts of a volume together.
+///
+/// # Errors
+///
+/// [`MeshError::NoTetrahedra`], and coordinates that are not finite or too large.
+pub(super) fn finish(
+    points: Points,
+    cells: Cells,
+    fields: Fields,
+    report: VolumeReport,
+) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+    let tetrahedra = cells.into_tetrahedra();
+    if tetrahedra.is_empty() {
+        return Err(MeshError::NoTetrahedra { n_vertices: points.len() });
+    }
+    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
+    let mesh = TetrahedronMesh { origin, positions, tetrahedra, attributes: fields.fields, rounding };
+    Ok((mesh, report))
+}

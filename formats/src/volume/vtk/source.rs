@@ -1,0 +1,190 @@
+//! Words and arrays of a legacy file, text or binary.
+
+use crate::error::{MeshError, Place};
+use crate::text::{Scanner, Style, parse_integer};
+use crate::volume::scalars::{NumberType, Numbers, push_text};
+use crate::{ScalarType, text};
+
+/// The file from behind its first three lines on.
+pub(super) struct Source<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: u64,
+    is_binary: bool,
+}
+
+impl<'a> Source<'a> {
+    /// Reads the signature, the title and the word `ASCII` or `BINARY`.
+    pub(super) fn new(bytes: &'a [u8]) -> Result<Self, MeshError> {
+        let mut source = Self { bytes, at: 0, line: 1, is_binary: false };
+        let signature = source.take_line();
+        if !signature.starts_with(b"# vtk DataFile") {
+            return Err(source.unexpected("\"# vtk DataFile\"", Some(signature)));
+        }
+        source.take_line();
+        let word = source.word();
+        source.is_binary = match word {
+            Some(word) if word.eq_ignore_ascii_case(b"binary") => true,
+            Some(word) if word.eq_ignore_ascii_case(b"ascii") => false,
+            word => return Err(source.unexpected("ASCII or BINARY", word)),
+        };
+        Ok(source)
+    }
+
+    /// Where the source is.
+    pub(super) fn place(&self) -> Place {
+        if self.is_binary { Place::byte(self.at) } else { Place::Line(self.line) }
+    }
+
+    pub(super) fn is_text(&self) -> bool {
+        !self.is_binary
+    }
+
+    /// The rest of this line, without its end.
+    pub(super) fn take_line(&mut self) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let len = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+        self.at += (len + 1).min(rest.len());
+        self.line += 1;
+        rest[..len].strip_suffix(b"\r").unwrap_or(&rest[..len])
+    }
+
+    /// The next word, of whatever line.
+    pub(super) fn word(&mut self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.at..];
+        let skipped = rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
+        self.line += rest[..skipped].iter().filter(|&&byte| byte == b'\n').count() as u64;
+        let rest = &rest[skipped..];
+        let len = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        self.at += skipped + len;
+        Some(&rest[..len])
+    }
+
+    /// The next word of this line.
+    pub(super) fn word_in_line(&mut self) -> Option<&'a [u8]> {
+        let mut scanner = Scanner::new_at(self.bytes, self.at, self.line, Style::default());
+        let word = scanner.word_in_line();
+        self.at = self.bytes.len() - scanner.n_bytes_left();
+        word
+    }
+
+    /// The next word, unless it does not pass `test`.
+    pub(super) fn word_if(&mut self, test: impl Fn(&[u8]) -> bool) -> Option<&'a [u8]> {
+        let (at, line) = (self.at, self.line);
+        let word = self.word().filter(|word| test(word));
+        if word.is_none() {
+            (self.at, self.line) = (at, line);
+        }
+        word
+    }
+
+    /// A name, with its `%20` and the like decoded.
+    pub(super) fn name(&mut self) -> Result<String, MeshError> {
+        let word = self.word().ok_or_else(|| self.unexpected("a name", None))?;
+        Ok(decode(word))
+    }
+
+    /// A count of things, each of which takes a byte at least.
+    pub(super) fn count(&mut self, what: &'static str) -> Result<usize, MeshError> {
+        let word = self.word();
+        let count = word.and_then(parse_integer).and_then(|count| u64::try_from(count).ok());
+        let count = count.ok_or_else(|| self.unexpected("a count", word))?;
+        self.check_count(count, 1, what)
+    }
+
+    fn check_count(&self, count: u64, bytes_each: u64, what: &'static str) -> Result<usize, MeshError> {
+        let left = (self.bytes.len() - self.at) as u64;
+        let limit = (left / bytes_each).min(u32::MAX.into());
+        let valid = usize::try_from(count).ok().filter(|_| count <= limit);
+        valid.ok_or(MeshError::CountTooLarge { place: self.place(), what, count, limit })
+    }
+
+    /// The name of a number type.
+    pub(super) fn number_type(&mut self) -> Result<NumberType, MeshError> {
+        let word = self.word();
+        let kept = |scalar| Some(NumberType::Kept(scalar));
+        let number = match word.map(<[u8]>::to_ascii_lowercase).as_deref() {
+            Some(b"char" | b"signed_char") => kept(ScalarType::I8),
+            Some(b"unsigned_char") => kept(ScalarType::U8),
+            Some(b"short") => kept(ScalarType::I16),
+            Some(b"unsigned_short") => kept(ScalarType::U16),
+            // Ids are written as `int` whatever they are in memory.
+            Some(b"int" | b"vtkidtype") => kept(ScalarType::I32),
+            Some(b"unsigned_int") => kept(ScalarType::U32),
+            Some(b"long" | b"long_long" | b"vtktypeint64") => Some(NumberType::I64),
+            Some(b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64") => Some(NumberType::U64),
+            Some(b"float") => kept(ScalarType::F32),
+            Some(b"double") => kept(ScalarType::F64),
+            _ => None,
+        };
+        number.ok_or_else(|| self.unexpected("a number type", word))
+    }
+
+    /// `n_tuples * n_components` numbers of a type. In a binary file they begin behind the end of this line.
+    pub(super) fn numbers(
+        &mut self,
+        [n_tuples, n_components]: [usize; 2],
+        number: NumberType,
+    ) -> Result<Numbers, MeshError> {
+        let count = n_tuples as u64 * n_components as u64;
+        if self.is_binary {
+            self.take_line();
+            let n = self.check_count(count, number.size_bytes() as u64, "numbers")?;
+            let n_bytes = n * number.size_bytes();
+            let bytes = &self.bytes[self.at..self.at + n_bytes];
+            self.at += n_bytes;
+            return Ok(Numbers::from_bytes(number, bytes, true));
+        }
+        let n = self.check_count(count, 1, "numbers")?;
+        let mut bytes = Vec::with_capacity(n * number.size_bytes());
+        for _ in 0..n {
+            let word = self.word();
+            let pushed = word.and_then(|word| push_text(&mut bytes, number, word));
+            pushed.ok_or_else(|| self.unexpected("a number of the array's type", word))?;
+        }
+        Ok(Numbers { number, bytes })
+    }
+
+    /// Skips information on arrays up to an empty line.
+    pub(super) fn skip_metadata(&mut self) {
+        self.take_line();
+        while self.at < self.bytes.len() && !self.take_line().is_empty() {}
+    }
+
+    pub(super) fn unexpected(&self, expected: &'static str, found: Option<&[u8]>) -> MeshError {
+        let found = found.map_or_else(|| "the end of the file".to_owned(), crate::error::excerpt);
+        MeshError::Unexpected { place: self.place(), expected, found }
+    }
+}
+
+/// Decodes `%` and two hexadecimal digits, as VTK writes blanks in names.
+fn decode(word: &[u8]) -> String {
+    let mut bytes = Vec::with_capacity(word.len());
+    let mut at = 0;
+    while let Some(&byte) = word.get(at) {
+        let digits = word.get(at + 1..at + 3).and_then(|digits| std::str::from_utf8(digits).ok());
+        let code = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        match code.filter(|_| byte == b'%') {
+            Some(code) => (bytes.push(code), at += 3).1,
+            None => (bytes.push(byte), at += 1).1,
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Components of a colour or texture coordinate, where a line gives them.
+pub(super) fn small_count(word: Option<&[u8]>) -> Option<usize> {
+    let count = text::parse_integer(word?)?;
+    usize::try_from(count).ok().filter(|count| (1..=64).contains(count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_decoded() {
+        assert_eq!(decode(b"total%20energy%"), "total energy%");
+        assert_eq!(decode(b"100%2"), "100%2");
+    }
+}

@@ -1,0 +1,208 @@
+//! The data arrays of a VTU file, in any of their encodings.
+
+use std::io::Read;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::read::ZlibDecoder;
+use roxmltree::Node;
+
+use crate::ScalarType;
+use crate::error::{MeshError, Place};
+use crate::volume::scalars::{NumberType, Numbers, push_text};
+
+/// How the file as a whole encodes its arrays.
+pub(super) struct Encoding<'a> {
+    pub is_big_endian: bool,
+    /// Bytes of the lengths before an array.
+    pub header_bytes: usize,
+    pub is_compressed: bool,
+    /// What stands behind the underscore of the appended data.
+    pub appended: &'a [u8],
+    /// Whether that is base64 and not raw.
+    pub is_appended_base64: bool,
+}
+
+/// Zlib makes no more of a byte than this many.
+const MAX_INFLATION: u64 = 1032;
+
+impl Encoding<'_> {
+    /// The numbers of a `DataArray`.
+    pub(super) fn numbers(&self, array: Node<'_, '_>) -> Result<Numbers, MeshError> {
+        let number = number_type(array)?;
+        let text = || array.text().unwrap_or("");
+        match array.attribute("format").unwrap_or("ascii") {
+            "ascii" => from_text(number, text()),
+            "binary" => {
+                let text: String = text().split_ascii_whitespace().collect();
+                self.read_base64(number, text.as_bytes())
+            }
+            "appended" => {
+                let offset = array.attribute("offset").and_then(|offset| offset.parse::<usize>().ok());
+                let rest = offset.and_then(|offset| self.appended.get(offset..));
+                let rest = rest.ok_or_else(|| cut_short("the offset of an array", self.appended.len()))?;
+                if self.is_appended_base64 {
+                    let end = rest.iter().position(|byte| !is_base64(*byte)).unwrap_or(rest.len());
+                    self.read_base64(number, &rest[..end])
+                } else {
+                    self.read_raw(number, rest)
+                }
+            }
+            other => Err(unsupported(format!("data format {other:?}"))),
+        }
+    }
+
+    /// Raw bytes: a length, or a table of compressed blocks, and the data.
+    fn read_raw(&self, number: NumberType, bytes: &[u8]) -> Result<Numbers, MeshError> {
+        if self.is_compressed {
+            let blocks = self.blocks(bytes)?;
+            let data = &bytes[blocks.header_bytes(self.header_bytes)..];
+            let data = inflate(&blocks, data)?;
+            return self.whole_numbers(number, &data);
+        }
+        let length = self.length(bytes, 0)?;
+        let data = bytes.get(self.header_bytes..).and_then(|data| data.get(..length));
+        self.whole_numbers(number, data.ok_or_else(|| cut_short("an array", bytes.len()))?)
+    }
+
+    /// Base64: the table of compressed blocks is encoded by itself, a plain length together with the data.
+    fn read_base64(&self, number: NumberType, text: &[u8]) -> Result<Numbers, MeshError> {
+        if !self.is_compressed {
+            // Behind the padding of the first stream another array may begin.
+            let head = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
+            let n_bytes = self.length(&head, 0)?.saturating_add(self.header_bytes);
+            let text = text.get(..padded(n_bytes)).ok_or_else(|| cut_short("an array", text.len()))?;
+            return self.read_raw(number, &decode(text)?);
+        }
+        let start = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
+        let n_blocks = self.length(&start, 0)?;
+        let table_bytes = n_blocks.saturating_add(3).saturating_mul(self.header_bytes);
+        let table_text = padded(table_bytes);
+        let table = text.get(..table_text).ok_or_else(|| cut_short("a table of blocks", text.len()))?;
+        let blocks = self.blocks(&decode(table)?)?;
+        let n_bytes = blocks.compressed.iter().fold(0_usize, |sum, &bytes| sum.saturating_add(bytes));
+        let data = text.get(table_text..).and_then(|data| data.get(..padded(n_bytes)));
+        let data = decode(data.ok_or_else(|| cut_short("compressed data", text.len()))?)?;
+        self.whole_numbers(number, &inflate(&blocks, &data)?)
+    }
+
+    fn whole_numbers(&self, number: NumberType, bytes: &[u8]) -> Result<Numbers, MeshError> {
+        if !bytes.len().is_multiple_of(number.size_bytes()) {
+            return Err(cut_short("the last number of an array", bytes.len()));
+        }
+        Ok(Numbers::from_bytes(number, bytes, self.is_big_endian))
+    }
+
+    /// The length at a place of a header.
+    fn length(&self, bytes: &[u8], index: usize) -> Result<usize, MeshError> {
+        let start = index * self.header_bytes;
+        let bytes = bytes.get(start..start + self.header_bytes);
+        let bytes = bytes.ok_or_else(|| cut_short("a length", start))?;
+        let mut wide = [0; 8];
+        if self.is_big_endian {
+            wide[8 - bytes.len()..].copy_from_slice(bytes);
+            wide.reverse();
+        } else {
+            wide[..bytes.len()].copy_from_slice(bytes);
+        }
+        let length = u64::from_le_bytes(wide);
+        usize::try_from(length).map_err(|_| cut_short("an array", bytes.len()))
+    }
+
+    /// The table before compressed data: the number of blocks, their length, that of the last, and the compressed lengths.
+    fn blocks(&self, bytes: &[u8]) -> Result<Blocks, MeshError> {
+        let [n_blocks, block_bytes, last_bytes] =
+            [self.length(bytes, 0)?, self.length(bytes, 1)?, self.length(bytes, 2)?];
+        if n_blocks > bytes.len() / self.header_bytes {
+            return Err(cut_short("a table of blocks", bytes.len()));
+        }
+        let compressed: Result<Vec<usize>, _> = (0..n_blocks).map(|i| self.length(bytes, 3 + i)).collect();
+        let last_bytes = if last_bytes == 0 { block_bytes } else { last_bytes };
+        Ok(Blocks { block_bytes, last_bytes, compressed: compressed? })
+    }
+}
+
+/// Blocks of compressed data.
+struct Blocks {
+    block_bytes: usize,
+    last_bytes: usize,
+    compressed: Vec<usize>,
+}
+
+impl Blocks {
+    fn header_bytes(&self, length_bytes: usize) -> usize {
+        (3 + self.compressed.len()) * length_bytes
+    }
+}
+
+fn inflate(blocks: &Blocks, mut data: &[u8]) -> Result<Vec<u8>, MeshError> {
+    let mut inflated = Vec::new();
+    for (i, &n_bytes) in blocks.compressed.iter().enumerate() {
+        let is_last = i + 1 == blocks.compressed.len();
+        let expected = if is_last { blocks.last_bytes } else { blocks.block_bytes };
+        let block = data.get(..n_bytes).ok_or_else(|| cut_short("a compressed block", data.len()))?;
+        data = &data[n_bytes..];
+        if expected as u64 > (n_bytes as u64).saturating_mul(MAX_INFLATION) {
+            return Err(cut_short("a compressed block", n_bytes));
+        }
+        let before = inflated.len();
+        let mut decoder = ZlibDecoder::new(block).take(expected as u64);
+        decoder.read_to_end(&mut inflated).map_err(|error| unsupported(format!("zlib data: {error}")))?;
+        if inflated.len() - before != expected {
+            return Err(cut_short("a compressed block", inflated.len() - before));
+        }
+    }
+    Ok(inflated)
+}
+
+fn number_type(array: Node<'_, '_>) -> Result<NumberType, MeshError> {
+    let name = array.attribute("type").unwrap_or("");
+    let kept = NumberType::Kept;
+    Ok(match name {
+        "Int8" => kept(ScalarType::I8),
+        "UInt8" => kept(ScalarType::U8),
+        "Int16" => kept(ScalarType::I16),
+        "UInt16" => kept(ScalarType::U16),
+        "Int32" => kept(ScalarType::I32),
+        "UInt32" => kept(ScalarType::U32),
+        "Int64" => NumberType::I64,
+        "UInt64" => NumberType::U64,
+        "Float32" => kept(ScalarType::F32),
+        "Float64" => kept(ScalarType::F64),
+        _ => return Err(unsupported(format!("data array of type {name:?}"))),
+    })
+}
+
+fn from_text(number: NumberType, text: &str) -> Result<Numbers, MeshError> {
+    let mut bytes = Vec::new();
+    for word in text.split_ascii_whitespace() {
+        push_text(&mut bytes, number, word.as_bytes()).ok_or_else(|| MeshError::Unexpected {
+            place: Place::Part("data array"),
+            expected: "a number of the array's type",
+            found: crate::error::excerpt(word.as_bytes()),
+        })?;
+    }
+    Ok(Numbers { number, bytes })
+}
+
+/// Characters that base64 takes for so many bytes.
+fn padded(n_bytes: usize) -> usize {
+    n_bytes.div_ceil(3).saturating_mul(4)
+}
+
+fn is_base64(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'/' | b'=')
+}
+
+fn decode(text: &[u8]) -> Result<Vec<u8>, MeshError> {
+    STANDARD.decode(text).map_err(|error| unsupported(format!("base64: {error}")))
+}
+
+pub(super) fn unsupported(feature: String) -> MeshError {
+    MeshError::Unsupported { place: Place::Part("VTU file"), feature }
+}
+
+fn cut_short(what: &'static str, found: usize) -> MeshError {
+    let (place, found) = (Place::Part("data array"), found as u64);
+    MeshError::Truncated { place, what, expected: found + 1, found }
+}

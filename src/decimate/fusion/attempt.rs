@@ -1,0 +1,135 @@
+//! Whether a fusion holds, and where its fusion point may be.
+
+use super::creases::Kind;
+use super::fusion_point::least_point;
+use super::metric::Quadric;
+use super::prey::Prey;
+use super::state::State;
+use crate::geometry::vector::{Vector, add, scale};
+
+/// A fusion that holds.
+pub(super) struct Accepted {
+    pub point: [f32; 3],
+    /// Bound on the distance between the boundary faces that come and the boundary of the input.
+    pub error: f64,
+    pub six_volumes_lost: f64,
+    /// What the fusion costs with the boundary's error counted in.
+    pub cost: f64,
+}
+
+/// How much the squared error of the boundary counts beside the squared distances to planes.
+const ERROR_WEIGHT: f64 = 10.0;
+
+impl State {
+    /// The quadric error of a fusion at the best point. A lower bound of what it costs where the boundary takes part.
+    pub(super) fn cost(&self, prey: &Prey) -> f64 {
+        let quadric = self.metric.of(prey.vertices());
+        quadric.at(self.metric.local(self.best_point(prey, &quadric)))
+    }
+
+    /// The place of the only boundary vertex or of a corner, otherwise where the quadric is least.
+    fn best_point(&self, prey: &Prey, quadric: &Quadric) -> Vector {
+        let kind = |v: &u32| self.creases.kind(*v);
+        let mut on_boundary = prey.vertices().iter().filter(|v| kind(v) != Kind::Interior);
+        let fixed = match (on_boundary.next(), on_boundary.next()) {
+            (only, None) => only,
+            _ => prey.vertices().iter().find(|v| kind(v) >= Kind::Corner),
+        };
+        match fixed {
+            Some(&v) => self.mesh.position(v),
+            None => self.least_point(prey.vertices(), quadric),
+        }
+    }
+
+    /// Where the quadric is least; the barycentre where it does not tell.
+    fn least_point(&self, vertices: &[u32], quadric: &Quadric) -> Vector {
+        least_point(quadric).map_or_else(|| self.barycentre(vertices), |p| self.metric.global(p))
+    }
+
+    fn barycentre(&self, vertices: &[u32]) -> Vector {
+        let sum = vertices.iter().fold([0.0; 3], |sum, &v| add(sum, self.mesh.position(v)));
+        scale(sum, 1.0 / vertices.len() as f64)
+    }
+
+    /// Looks whether a fusion holds. Its neighbourhood is gathered then.
+    pub(super) fn try_fusion(&mut self, prey: &Prey) -> Option<Accepted> {
+        let mut members = [0; 4];
+        let mut n_members = 0;
+        for &v in prey.vertices() {
+            self.mesh.purge(v);
+            if self.creases.kind(v) != Kind::Interior {
+                members[n_members] = v;
+                n_members += 1;
+            }
+        }
+        match n_members {
+            0 => {
+                let quadric = self.metric.of(prey.vertices());
+                let point = round(self.least_point(prey.vertices(), &quadric));
+                self.try_at(prey, point)
+            }
+            1 => self.try_at(prey, self.mesh.positions()[members[0] as usize]),
+            _ => self.try_boundary(prey, &members[..n_members]),
+        }
+    }
+
+    /// A fusion that leaves the boundary as it is.
+    fn try_at(&mut self, prey: &Prey, point: [f32; 3]) -> Option<Accepted> {
+        if !self.neighbourhood.gather(&self.mesh, prey, Some(point.map(f64::from))) {
+            return None;
+        }
+        let error = self.error_before();
+        Some(Accepted { point, error, six_volumes_lost: 0.0, cost: 0.0 })
+    }
+
+    /// A fusion that changes the boundary.
+    fn try_boundary(&mut self, prey: &Prey, members: &[u32]) -> Option<Accepted> {
+        let anchor = self.creases.anchor(members)?;
+        self.neighbourhood.gather(&self.mesh, prey, None);
+        if !self.patch.fill(&self.mesh, &self.neighbourhood, members) {
+            return None;
+        }
+        let quadric = self.metric.of(prey.vertices());
+        let before = self.error_before();
+        let six_volumes = self.neighbourhood.six_volumes_before(&self.mesh);
+        let [xx, _, _, yy, _, zz] = quadric.a;
+        let error_weight = ERROR_WEIGHT * (xx + yy + zz);
+        let mut best: Option<Accepted> = None;
+        let mut consider = |point: [f32; 3]| {
+            let p = point.map(f64::from);
+            let Some(fit) = self.patch.fit(p).filter(|fit| fit.outside <= self.slack) else { return };
+            let error = before + fit.distance;
+            let cost = quadric.at(self.metric.local(p)).max(0.0) + error_weight * error * error;
+            if error > self.max_error || best.as_ref().is_some_and(|best| best.cost <= cost) {
+                return;
+            }
+            let Some(after) = self.neighbourhood.six_volumes(p) else { return };
+            let six_volumes_lost = six_volumes - after;
+            if six_volumes_lost <= self.six_volumes_left {
+                best = Some(Accepted { point, error, six_volumes_lost, cost });
+            }
+        };
+        for &v in anchor.vertices() {
+            consider(self.mesh.positions()[v as usize]);
+        }
+        if anchor.is_free {
+            let places = [self.least_point(members, &quadric), self.barycentre(members)];
+            for place in places {
+                consider(round(self.patch.highest_inside(place)));
+            }
+        }
+        best
+    }
+
+    /// Bound on the distance between the input's boundary and the faces that a fusion would touch. Vertices are numbered as they
+    /// are born, so that a face is as old as its newest corner.
+    fn error_before(&self) -> f64 {
+        let newest = |face: &[u32; 3]| face.iter().copied().max().unwrap_or(0);
+        self.neighbourhood.faces.iter().map(|face| self.errors[newest(face) as usize]).fold(0.0, f64::max)
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "positions are kept in f32")]
+fn round(p: Vector) -> [f32; 3] {
+    p.map(|x| x as f32)
+}

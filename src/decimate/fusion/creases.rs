@@ -1,0 +1,232 @@
+//! What a vertex is to the boundary, and which boundary vertices may become one.
+//!
+//! Corners stay where they are, creases shrink along themselves only: the vertices of a fusion that lie on creases must be
+//! neighbours along one crease, and the fusion point is one of them. The neighbours along a crease are kept by the vertex they
+//! were at the start; whom that vertex has become is found by following its heirs.
+
+use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
+use crate::mesh::Tetrahedra;
+
+/// What a vertex is to the boundary, from what moves most freely to what does not move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    /// Not on it.
+    Interior,
+    /// On it, without a feature edge.
+    Smooth,
+    /// Between two feature edges that go on in one direction.
+    Crease,
+    /// At any other feature edges.
+    Corner,
+    /// Where the boundary is not a disk: never part of a fusion that changes the boundary.
+    Locked,
+}
+
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+/// The kinds of all vertices, and the creases.
+#[derive(Clone, Debug)]
+pub(super) struct Creases {
+    kinds: Vec<Kind>,
+    /// Neighbours of each crease vertex along its crease.
+    along: Vec<[u32; 2]>,
+    /// What each vertex has become; itself while it lives.
+    heirs: Vec<u32>,
+}
+
+impl Creases {
+    /// Classifies the vertices of a mesh. Edges at which the normals of the boundary turn by more than an angle, given by its
+    /// cosine, are features. O(n).
+    pub(super) fn new(mesh: &Tetrahedra, cos_feature_angle: f64) -> Self {
+        let n_vertices = mesh.n_vertices();
+        let mut rims: Vec<Vec<[u32; 2]>> = vec![Vec::new(); n_vertices];
+        for [a, b, c] in mesh.boundary() {
+            for (v, rim) in [(a, [b, c]), (b, [c, a]), (c, [a, b])] {
+                rims[v as usize].push(rim);
+            }
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
+        let heirs: Vec<u32> = (0..n_vertices as u32).collect();
+        let mut creases =
+            Self { kinds: vec![Kind::Interior; n_vertices], along: vec![[NONE; 2]; n_vertices], heirs };
+        for (v, rim) in (0..).zip(&rims).filter(|(_, rim)| !rim.is_empty()) {
+            creases.classify(mesh, v, rim, cos_feature_angle);
+        }
+        creases
+    }
+
+    /// Sets the kind of a boundary vertex with the given edges opposite to it.
+    fn classify(&mut self, mesh: &Tetrahedra, v: u32, rim: &[[u32; 2]], cos_feature_angle: f64) {
+        let Some(ring) = ring(rim) else {
+            self.kinds[v as usize] = Kind::Locked;
+            return;
+        };
+        let apex = mesh.position(v);
+        let side = |w: u32| sub(mesh.position(w), apex);
+        let normals: Vec<Vector> =
+            (0..ring.len()).map(|i| cross(side(ring[i]), side(ring[(i + 1) % ring.len()]))).collect();
+        let is_feature = |i: usize| {
+            let (before, after) = (normals[(i + ring.len() - 1) % ring.len()], normals[i]);
+            let scale_sq = length_sq(before) * length_sq(after);
+            scale_sq > 0.0 && dot(before, after) < cos_feature_angle * scale_sq.sqrt()
+        };
+        let features: Vec<u32> = (0..ring.len()).filter(|&i| is_feature(i)).map(|i| ring[i]).collect();
+        self.kinds[v as usize] = match *features {
+            [] => Kind::Smooth,
+            [a, b] if goes_on(side(a), side(b), cos_feature_angle) => {
+                self.along[v as usize] = [a, b];
+                Kind::Crease
+            }
+            _ => Kind::Corner,
+        };
+    }
+
+    #[inline(always)]
+    pub(super) fn kind(&self, v: u32) -> Kind {
+        self.kinds[v as usize]
+    }
+
+    /// Where boundary vertices that become one may go, or `None` where they may not.
+    pub(super) fn anchor(&mut self, members: &[u32]) -> Option<Anchor> {
+        let mut sharp = [NONE; 4];
+        let mut n_sharp = 0;
+        let mut corner = None;
+        for &v in members {
+            match self.kind(v) {
+                Kind::Locked => return None,
+                Kind::Corner if corner.is_some() => return None,
+                Kind::Corner => corner = Some(v),
+                Kind::Interior | Kind::Smooth => continue,
+                Kind::Crease => {}
+            }
+            sharp[n_sharp] = v;
+            n_sharp += 1;
+        }
+        let sharp = &sharp[..n_sharp];
+        if n_sharp > 1 && !self.is_chain(sharp) {
+            return None;
+        }
+        let mut vertices = [NONE; 4];
+        let source = match corner {
+            Some(ref corner) => std::slice::from_ref(corner),
+            None if n_sharp > 0 => sharp,
+            None => members,
+        };
+        vertices[..source.len()].copy_from_slice(source);
+        Some(Anchor { vertices, n_vertices: source.len(), is_free: n_sharp == 0 })
+    }
+
+    /// Whether crease vertices, and a corner perhaps, hang together along a crease that goes on at its other ends.
+    fn is_chain(&mut self, sharp: &[u32]) -> bool {
+        let mut n_links = 0;
+        let mut ends = [NONE; 8];
+        let mut n_ends = 0;
+        let mut reached = 1_u32;
+        for _ in 0..sharp.len() {
+            for (i, &v) in sharp.iter().enumerate() {
+                for next in self.crease_neighbours(v) {
+                    let next = self.find(next);
+                    if let Some(j) = sharp.iter().position(|&w| w == next)
+                        && reached & (1 << i | 1 << j) != 0
+                    {
+                        reached |= 1 << i | 1 << j;
+                    }
+                }
+            }
+        }
+        for &v in sharp {
+            for next in self.crease_neighbours(v) {
+                let next = self.find(next);
+                if let Some(w) = sharp.iter().find(|&&w| w == next) {
+                    // A link between two crease vertices is seen from both of them.
+                    n_links += if self.kinds[*w as usize] == Kind::Crease { 1 } else { 2 };
+                } else if ends[..n_ends].contains(&next) {
+                    return false;
+                } else {
+                    ends[n_ends] = next;
+                    n_ends += 1;
+                }
+            }
+        }
+        reached.count_ones() as usize == sharp.len() && n_links == 2 * (sharp.len() - 1)
+    }
+
+    /// A new vertex takes the place of others.
+    pub(super) fn add_vertex(&mut self, replaced: &[u32]) {
+        let kind = replaced.iter().map(|&v| self.kind(v)).max().unwrap_or(Kind::Interior);
+        let mut along = [NONE; 2];
+        if kind == Kind::Crease {
+            let mut n_along = 0;
+            for &v in replaced {
+                for next in self.crease_neighbours(v) {
+                    let next = self.find(next);
+                    if !replaced.contains(&next) && n_along < 2 {
+                        along[n_along] = next;
+                        n_along += 1;
+                    }
+                }
+            }
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
+        let new = self.heirs.len() as u32;
+        self.kinds.push(kind);
+        self.along.push(along);
+        self.heirs.push(new);
+        replaced.iter().for_each(|&v| self.heirs[v as usize] = new);
+    }
+
+    /// Neighbours along the crease of a crease vertex, none of any other.
+    fn crease_neighbours(&self, v: u32) -> impl Iterator<Item = u32> + use<> {
+        let is_crease = self.kinds[v as usize] == Kind::Crease;
+        self.along[v as usize].into_iter().filter(move |_| is_crease)
+    }
+
+    /// What a vertex has become.
+    fn find(&mut self, mut v: u32) -> u32 {
+        while v != NONE && self.heirs[v as usize] != v {
+            let heir = self.heirs[v as usize];
+            // Halve the way for the next who asks.
+            self.heirs[v as usize] = self.heirs[heir as usize];
+            v = heir;
+        }
+        v
+    }
+}
+
+/// Where boundary vertices that become one may go.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Anchor {
+    vertices: [u32; 4],
+    n_vertices: usize,
+    /// Whether other places will do as well.
+    pub is_free: bool,
+}
+
+impl Anchor {
+    /// The vertices at whose places the new one may be.
+    pub(super) fn vertices(&self) -> &[u32] {
+        &self.vertices[..self.n_vertices]
+    }
+}
+
+/// The vertices around a boundary vertex in their order, or `None` where they are not one closed ring.
+fn ring(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
+    let mut ring = vec![rim.first()?[0]];
+    for _ in 1..rim.len() {
+        let last = *ring.last()?;
+        let mut next = rim.iter().filter(|edge| edge[0] == last);
+        let (edge, None) = (next.next()?, next.next()) else { return None };
+        if ring.contains(&edge[1]) {
+            return None;
+        }
+        ring.push(edge[1]);
+    }
+    let is_closed = rim.iter().any(|edge| Some(&edge[0]) == ring.last() && edge[1] == ring[0]);
+    is_closed.then_some(ring)
+}
+
+/// Whether two edges that leave a vertex are one line that turns by less than the angle.
+fn goes_on(a: Vector, b: Vector, cos_angle: f64) -> bool {
+    -dot(a, b) > cos_angle * (length_sq(a) * length_sq(b)).sqrt()
+}

@@ -1,0 +1,269 @@
+//! Fields carried along: their values at fusion points, and how far they have come from those of the input.
+
+use super::neighbourhood::Neighbourhood;
+use crate::geometry::vector::{Vector, cross, dot, sub};
+use crate::mesh::Tetrahedra;
+use nephrite_formats::{Attribute, ScalarType};
+
+/// The fields of a mesh in `f64`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Fields {
+    shapes: Vec<Shape>,
+    /// Components of all fields together.
+    n_values: usize,
+    /// `n_values` per vertex.
+    values: Vec<f64>,
+    /// Estimated deviation of each field, per vertex.
+    deviations: Vec<f64>,
+    /// The largest deviation of each field anywhere so far.
+    pub worst: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+/// One field.
+#[derive(Clone, Debug)]
+struct Shape {
+    name: String,
+    scalar: ScalarType,
+    n_components: usize,
+}
+
+impl Fields {
+    /// The fields of a mesh of `n_vertices` vertices.
+    pub(super) fn new(attributes: &[Attribute], n_vertices: usize) -> Self {
+        let shapes: Vec<Shape> = attributes
+            .iter()
+            .map(|a| Shape { name: a.name.clone(), scalar: a.scalar, n_components: a.n_components as usize })
+            .collect();
+        let n_values = shapes.iter().map(|shape| shape.n_components).sum();
+        let mut values = vec![0.0; n_values * n_vertices];
+        let mut first = 0;
+        for (attribute, shape) in attributes.iter().zip(&shapes) {
+            for (i, value) in attribute.values().enumerate() {
+                let (vertex, component) = (i / shape.n_components, i % shape.n_components);
+                values[vertex * n_values + first + component] = value;
+            }
+            first += shape.n_components;
+        }
+        let n_fields = shapes.len();
+        Self {
+            shapes,
+            n_values,
+            values,
+            deviations: vec![0.0; n_fields * n_vertices],
+            worst: vec![0.0; n_fields],
+            scratch: Vec::new(),
+        }
+    }
+
+    /// Number of fields.
+    pub(super) fn len(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Names of the fields.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.shapes.iter().map(|shape| shape.name.as_str())
+    }
+
+    /// The components that vary, scaled so that the range of each field is `length`: their number, and their values per
+    /// vertex. Fields with values that are not finite are left out.
+    pub(super) fn scaled(&self, length: f64) -> (usize, Vec<f64>) {
+        let mut columns = Vec::new();
+        let mut first = 0;
+        for shape in &self.shapes {
+            let components = first..first + shape.n_components;
+            first = components.end;
+            let ranges = components.clone().map(|column| self.range(column));
+            let widest = ranges.fold(0.0, f64::max);
+            if widest > 0.0 && widest.is_finite() && length > 0.0 {
+                let varying = components.filter(|&column| self.range(column) > 0.0);
+                columns.extend(varying.map(|column| (column, length / widest)));
+            }
+        }
+        let rows = self.values.chunks_exact(self.n_values.max(1));
+        let scaled =
+            rows.flat_map(|row| columns.iter().map(|&(column, scale)| scale * row[column])).collect();
+        (columns.len(), scaled)
+    }
+
+    /// Difference between the largest and the least value of a component; infinite where one is not finite.
+    fn range(&self, column: usize) -> f64 {
+        let values = self.values.iter().skip(column).step_by(self.n_values);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
+            if value.is_finite() {
+                (low.min(value), high.max(value))
+            } else {
+                (f64::NEG_INFINITY, f64::INFINITY)
+            }
+        });
+        high - low
+    }
+
+    /// Values at `p` for a vertex that takes the place of `fused`: those of the fused vertex at the same place, otherwise
+    /// interpolated in the tetrahedron that holds it.
+    pub(super) fn add_vertex(
+        &mut self,
+        mesh: &Tetrahedra,
+        neighbourhood: &Neighbourhood,
+        fused: &[u32],
+        p: [f32; 3],
+    ) {
+        if self.n_values == 0 {
+            return;
+        }
+        let start = self.values.len();
+        if let Some(&same) = fused.iter().find(|&&v| mesh.positions()[v as usize] == p) {
+            let row = same as usize * self.n_values;
+            self.values.extend_from_within(row..row + self.n_values);
+            return;
+        }
+        let affected = neighbourhood.affected.iter().map(|affected| affected.slot);
+        let slots = neighbourhood.deleted.iter().copied().chain(affected);
+        let point = p.map(f64::from);
+        let mut best = None;
+        let mut best_inside = f64::NEG_INFINITY;
+        for corners in slots.filter_map(|slot| mesh.get(slot)) {
+            let Some(weights) = barycentric(point, corners.map(|v| mesh.position(v))) else { continue };
+            let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
+            if inside > best_inside {
+                (best_inside, best) = (inside, Some((corners, weights)));
+            }
+            if inside >= 0.0 {
+                break;
+            }
+        }
+        self.values.resize(start + self.n_values, 0.0);
+        let Some((corners, weights)) = best else { return };
+        let (old, new) = self.values.split_at_mut(start);
+        interpolate(old, self.n_values, corners, weights, new);
+    }
+
+    /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their values are from those that the
+    /// new tetrahedra have at their places. The affected tetrahedra have their new corner, `new` at `p`.
+    pub(super) fn deviate(
+        &mut self,
+        mesh: &Tetrahedra,
+        neighbourhood: &Neighbourhood,
+        fused: &[u32],
+        new: u32,
+    ) {
+        let n_fields = self.len();
+        if n_fields == 0 {
+            return;
+        }
+        let start = self.deviations.len();
+        self.deviations.resize(start + n_fields, 0.0);
+        let p = mesh.position(new);
+        for &v in fused {
+            let x = mesh.position(v);
+            self.scratch.clear();
+            self.scratch.resize(self.n_values, 0.0);
+            if x == p {
+                self.scratch.copy_from_slice(&self.values[new as usize * self.n_values..][..self.n_values]);
+            } else if let Some((corners, weights)) = cone_at(mesh, neighbourhood, p, x, new) {
+                interpolate(&self.values, self.n_values, corners, weights, &mut self.scratch);
+            } else {
+                continue;
+            }
+            let mut first = 0;
+            for (field, shape) in self.shapes.iter().enumerate() {
+                let there = &self.values[v as usize * self.n_values + first..][..shape.n_components];
+                let here = &self.scratch[first..][..shape.n_components];
+                first += shape.n_components;
+                let difference_sq: f64 = there.iter().zip(here).map(|(a, b)| (a - b) * (a - b)).sum();
+                let deviation = self.deviations[v as usize * n_fields + field] + difference_sq.sqrt();
+                let own = &mut self.deviations[start + field];
+                *own = own.max(deviation);
+                self.worst[field] = self.worst[field].max(deviation);
+            }
+        }
+    }
+
+    /// The fields of all vertices as attributes, rounded to the types they came in.
+    pub(super) fn into_attributes(self) -> Vec<Attribute> {
+        let n_values = self.n_values.max(1);
+        let mut first = 0;
+        let mut attributes = Vec::new();
+        for shape in &self.shapes {
+            let range = first..first + shape.n_components;
+            first = range.end;
+            let values =
+                self.values.chunks_exact(n_values).flat_map(|row| row[range.clone()].iter().copied());
+            attributes.push(Attribute::from_values(
+                shape.name.clone(),
+                shape.scalar,
+                u32::try_from(shape.n_components).unwrap_or(u32::MAX),
+                values,
+            ));
+        }
+        attributes
+    }
+}
+
+fn interpolate(values: &[f64], n_values: usize, corners: [u32; 4], weights: [f64; 4], into: &mut [f64]) {
+    into.fill(0.0);
+    // About one corner: a field that is constant there stays so to the last bit.
+    let base = &values[corners[0] as usize * n_values..][..n_values];
+    for (&v, weight) in corners.iter().zip(weights).skip(1) {
+        let row = &values[v as usize * n_values..][..n_values];
+        for ((sum, value), base) in into.iter_mut().zip(row).zip(base) {
+            *sum += weight * (value - base);
+        }
+    }
+    into.iter_mut().zip(base).for_each(|(sum, base)| *sum += base);
+}
+
+/// How far outside a tetrahedron, in its coordinates, its field is taken to go on.
+const MAX_OUTSIDE: f64 = 0.1;
+
+/// The new tetrahedron that `x` lies in, or that it is least outside of, with its coordinates there, made positive where that is far.
+fn cone_at(
+    mesh: &Tetrahedra,
+    neighbourhood: &Neighbourhood,
+    p: Vector,
+    x: Vector,
+    new: u32,
+) -> Option<([u32; 4], [f64; 4])> {
+    let ray = sub(x, p);
+    let mut best = None;
+    let mut best_inside = f64::NEG_INFINITY;
+    for affected in &neighbourhood.affected {
+        let [a, b, c] = affected.base.map(|v| sub(mesh.position(v), p));
+        let across = cross(b, c);
+        let volume = dot(a, across);
+        let u = dot(ray, across) / volume;
+        // Most are refused by the first of three coordinates; a base seen edge-on gives no number.
+        if u.is_nan() || u <= best_inside {
+            continue;
+        }
+        let [v, w] = [dot(ray, cross(c, a)) / volume, dot(ray, cross(a, b)) / volume];
+        let inside = u.min(v).min(w).min(1.0 - u - v - w);
+        if inside > best_inside {
+            let [a, b, c] = affected.base;
+            (best_inside, best) = (inside, Some(([new, a, b, c], [1.0 - u - v - w, u, v, w])));
+        }
+        if inside >= 0.0 {
+            break;
+        }
+    }
+    // A little outside, by rounding or where the boundary has moved inwards, the field goes on as it is.
+    let (corners, weights) = best?;
+    if best_inside > -MAX_OUTSIDE {
+        return Some((corners, weights));
+    }
+    let positive = weights.map(|weight: f64| weight.max(0.0));
+    let sum: f64 = positive.iter().sum();
+    Some((corners, positive.map(|weight| weight / sum)))
+}
+
+/// Barycentric coordinates of a point in a tetrahedron; `None` for one without volume.
+pub(crate) fn barycentric(point: Vector, [a, b, c, d]: [Vector; 4]) -> Option<[f64; 4]> {
+    let (b, c, d, p) = (sub(b, a), sub(c, a), sub(d, a), sub(point, a));
+    let volume = dot(b, cross(c, d));
+    if volume == 0.0 {
+        return None;
+    }
+    let [u, v, w] = [dot(p, cross(c, d)), dot(p, cross(d, b)), dot(p, cross(b, c))].map(|part| part / volume);
+    Some([1.0 - u - v - w, u, v, w])
+}

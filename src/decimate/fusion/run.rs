@@ -1,0 +1,202 @@
+//! The driver: candidates from the queue, each tried, the ones that hold made. First tetrahedra, as the paper has it; where no
+//! tetrahedron can be fused any more, edges.
+
+use super::options::FusionOptions;
+use super::prey::Prey;
+use super::queue::Queue;
+use super::state::{Fused, State};
+use nephrite_formats::TetrahedronMesh;
+use rayon::prelude::*;
+
+/// The observer asked to stop.
+pub(crate) struct Stopped;
+
+/// Fusions between two calls of the observer.
+const OBSERVED: usize = 256;
+
+/// Told the tetrahedra left and the error of the boundary; says whether to go on.
+pub(crate) type GoOn<'a> = &'a dyn Fn(usize, f64) -> bool;
+
+/// Fuses the tetrahedra of a mesh as far as it goes, or until the error of the boundary would exceed `max_error`.
+///
+/// # Errors
+///
+/// [`Stopped`] when `go_on` says so.
+pub(crate) fn run(
+    mesh: &TetrahedronMesh,
+    options: &FusionOptions,
+    cos_feature_angle: f64,
+    max_error: Option<f64>,
+    go_on: GoOn<'_>,
+) -> Result<Fused, Stopped> {
+    let mut state = State::new(mesh, options, cos_feature_angle, max_error);
+    fuse_tetrahedra(&mut state, go_on)?;
+    let by_tetrahedra = [state.n_fusions, state.mesh.n_alive()];
+    fuse_edges(&mut state, go_on)?;
+    Ok(state.finish(mesh, by_tetrahedra))
+}
+
+/// What is known of a candidate, by slot or by vertex.
+#[derive(Clone, Copy, Default)]
+struct Candidate {
+    /// Whether its cost in the queue is out of date.
+    is_stale: bool,
+    /// What it costs with the boundary's error counted in, as far as known: a lower bound.
+    cost: f32,
+    /// Fusion after which it was refused.
+    refused: u32,
+}
+
+fn fuse_tetrahedra(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
+    #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
+    let n_slots = state.mesh.n_slots() as u32;
+    let mut candidates = vec![Candidate::default(); n_slots as usize];
+    let cost =
+        |slot: u32| state.mesh.get(slot).map(|corners| (slot, state.cost(&Prey::tetrahedron(corners))));
+    let costs: Vec<(u32, f64)> = (0..n_slots).into_par_iter().filter_map(cost).collect();
+    let mut queue = Queue::new(costs.into_iter());
+    loop {
+        let before = state.n_fusions;
+        while let Some(slot) = queue.pop() {
+            let Some(corners) = state.mesh.get(slot) else { continue };
+            let prey = Prey::tetrahedron(corners);
+            let candidate = &mut candidates[slot as usize];
+            if std::mem::take(&mut candidate.is_stale) {
+                let cost = state.cost(&prey).max(candidate.cost.into());
+                if !queue.is_first(slot, cost) {
+                    queue.push(slot, cost);
+                    continue;
+                }
+            }
+            let Some(accepted) = state.try_fusion(&prey) else {
+                candidate.refused = state.now();
+                continue;
+            };
+            if comes_later(candidate, accepted.cost) && !queue.is_first(slot, accepted.cost) {
+                queue.push(slot, accepted.cost);
+                continue;
+            }
+            state.fuse(&prey, &accepted, |slot| candidates[slot as usize].is_stale = true);
+            observe(state, go_on)?;
+        }
+        // What was refused may do in the surroundings of a later time.
+        if state.n_fusions == before || !queue_changed_tetrahedra(state, &candidates, &mut queue) {
+            return Ok(());
+        }
+    }
+}
+
+/// Takes down what a candidate costs with the boundary's error counted in; true where that is more than was known.
+#[expect(clippy::cast_possible_truncation, reason = "the order needs no more digits")]
+fn comes_later(candidate: &mut Candidate, cost: f64) -> bool {
+    let cost = cost as f32;
+    let is_news = cost > candidate.cost;
+    candidate.cost = candidate.cost.max(cost);
+    is_news
+}
+
+fn queue_changed_tetrahedra(state: &State, candidates: &[Candidate], queue: &mut Queue) -> bool {
+    let before = state.now();
+    let mut is_any = false;
+    for (slot, corners) in state.mesh.iter() {
+        let candidate = candidates[slot as usize];
+        let touched = corners.iter().map(|&v| state.touched[v as usize]).max().unwrap_or(0);
+        if touched > candidate.refused && touched <= before {
+            queue.push(slot, state.cost(&Prey::tetrahedron(corners)).max(candidate.cost.into()));
+            is_any = true;
+        }
+    }
+    is_any
+}
+
+/// Told now and then how far it has come.
+fn observe(state: &State, go_on: GoOn<'_>) -> Result<(), Stopped> {
+    let is_time = state.n_fusions.is_multiple_of(OBSERVED);
+    if is_time && !go_on(state.mesh.n_alive(), state.recorder.error()) { Err(Stopped) } else { Ok(()) }
+}
+
+/// Fuses edges, in the order of the least cost of any edge at a vertex.
+fn fuse_edges(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
+    let mut candidates = vec![Candidate::default(); state.mesh.n_vertices()];
+    let mut edges = Edges::default();
+    let mut queue = Queue::default();
+    queue_edges(state, &candidates, &mut edges, &mut queue);
+    loop {
+        let before = state.n_fusions;
+        while let Some(v) = queue.pop() {
+            edges.find(state, v);
+            let candidate = &mut candidates[v as usize];
+            let Some(&(least, _)) = edges.costs.first() else { continue };
+            if !queue.is_first(v, least.max(candidate.cost.into())) {
+                queue.push(v, least.max(candidate.cost.into()));
+                continue;
+            }
+            match first_that_holds(state, &edges, v) {
+                None => candidate.refused = state.now(),
+                Some((prey, accepted)) => {
+                    if comes_later(candidate, accepted.cost) && !queue.is_first(v, accepted.cost) {
+                        queue.push(v, accepted.cost);
+                        continue;
+                    }
+                    let new = state.fuse(&prey, &accepted, |_| {});
+                    candidates.resize(state.mesh.n_vertices(), Candidate::default());
+                    edges.find(state, new);
+                    edges.costs.first().iter().for_each(|(cost, _)| queue.push(new, *cost));
+                    observe(state, go_on)?;
+                }
+            }
+        }
+        if state.n_fusions == before || !queue_edges(state, &candidates, &mut edges, &mut queue) {
+            return Ok(());
+        }
+    }
+}
+
+/// The cheapest edges at a vertex are tried in order; no more than this many.
+const TRIED_EDGES: usize = 4;
+
+fn first_that_holds(state: &mut State, edges: &Edges, v: u32) -> Option<(Prey, super::attempt::Accepted)> {
+    edges.costs.iter().take(TRIED_EDGES).find_map(|&(_, w)| {
+        let prey = Prey::edge([v, w]);
+        Some((prey, state.try_fusion(&prey)?))
+    })
+}
+
+fn queue_edges(state: &mut State, candidates: &[Candidate], edges: &mut Edges, queue: &mut Queue) -> bool {
+    let mut is_any = false;
+    for (v, candidate) in (0..).zip(candidates) {
+        let is_changed = candidate.refused == 0 || state.touched[v as usize] > candidate.refused;
+        if is_changed {
+            edges.find(state, v);
+            if let Some(&(cost, _)) = edges.costs.first() {
+                queue.push(v, cost.max(candidate.cost.into()));
+                is_any = true;
+            }
+        }
+    }
+    is_any
+}
+
+/// The edges at one vertex with their costs, the least first. Kept and filled anew.
+#[derive(Default)]
+struct Edges {
+    costs: Vec<(f64, u32)>,
+    neighbours: Vec<u32>,
+}
+
+impl Edges {
+    fn find(&mut self, state: &mut State, v: u32) {
+        state.mesh.purge(v);
+        self.neighbours.clear();
+        for &slot in state.mesh.slots_at(v) {
+            if let Some(corners) = state.mesh.get(slot).filter(|corners| corners.contains(&v)) {
+                self.neighbours.extend(corners.into_iter().filter(|&w| w != v));
+            }
+        }
+        self.neighbours.sort_unstable();
+        self.neighbours.dedup();
+        self.costs.clear();
+        self.costs.extend(self.neighbours.iter().map(|&w| (state.cost(&Prey::edge([v, w])), w)));
+        self.costs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    }
+}

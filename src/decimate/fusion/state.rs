@@ -1,0 +1,162 @@
+//! The mesh in the middle of its fusion, with all that is kept beside it.
+
+use super::attempt::Accepted;
+use super::creases::Creases;
+use super::fields::Fields;
+use super::metric::{Metric, Quadric};
+use super::neighbourhood::Neighbourhood;
+use super::options::FusionOptions;
+use super::patch::Patch;
+use super::prey::Prey;
+use crate::geometry::vector::{Vector, length, max, midpoint, min, sub};
+use crate::history::{Deviation, History, Recorder};
+use crate::mesh::Tetrahedra;
+use nephrite_formats::TetrahedronMesh;
+
+/// Largest distance that rounding a point to `f32` and its coordinates' products may make, in parts of the extent.
+const SLACK: f64 = 4.0 * f32::EPSILON as f64;
+
+/// The mesh in the middle of its fusion.
+pub(super) struct State {
+    pub mesh: Tetrahedra,
+    pub metric: Metric,
+    pub creases: Creases,
+    pub fields: Fields,
+    pub recorder: Recorder<4>,
+    /// Bound on the distance between the input's boundary and the faces whose newest corner a vertex is.
+    pub errors: Vec<f64>,
+    /// Fusion at which the star of a vertex last changed.
+    pub touched: Vec<u32>,
+    pub neighbourhood: Neighbourhood,
+    pub patch: Patch,
+    pub n_fusions: usize,
+    /// Six times the volume that may be lost still.
+    pub six_volumes_left: f64,
+    /// How far a point may be outside by rounding alone.
+    pub slack: f64,
+    pub max_error: f64,
+    quadric_distances: Vec<f64>,
+    field_deviations: Vec<Vec<f64>>,
+}
+
+/// What a run leaves.
+pub(crate) struct Fused {
+    /// The vertices of the input and all fusion points, with their fields.
+    pub mesh: TetrahedronMesh,
+    pub history: History<4>,
+    /// Fusions made.
+    pub n_fusions: usize,
+    /// Those of tetrahedra among them, which come first.
+    pub n_tetrahedron_fusions: usize,
+    /// The tetrahedra that those left.
+    pub n_left_by_tetrahedra: usize,
+}
+
+impl State {
+    pub(super) fn new(
+        mesh: &TetrahedronMesh,
+        options: &FusionOptions,
+        cos_feature_angle: f64,
+        max_error: Option<f64>,
+    ) -> Self {
+        let tetrahedra = Tetrahedra::new(mesh);
+        let (low, high) = bounds(mesh);
+        let fields = Fields::new(&mesh.attributes, mesh.positions.len());
+        let (n_scaled, scaled) = fields.scaled(options.field_weight * length(sub(high, low)));
+        let metric = Metric::new(&tetrahedra, midpoint(low, high), n_scaled, &scaled);
+        let six_volumes: f64 = mesh.tetrahedra.iter().map(|&t| mesh.six_volumes(t)).sum();
+        Self {
+            creases: Creases::new(&tetrahedra, cos_feature_angle),
+            recorder: Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding),
+            touched: vec![0; mesh.positions.len()],
+            errors: vec![mesh.rounding; mesh.positions.len()],
+            quadric_distances: vec![0.0],
+            field_deviations: vec![vec![0.0]; fields.len()],
+            slack: SLACK * max(low.map(f64::abs), high.map(f64::abs)).into_iter().fold(0.0, f64::max),
+            six_volumes_left: options.volume_loss * six_volumes.abs(),
+            max_error: max_error.unwrap_or(f64::INFINITY),
+            mesh: tetrahedra,
+            metric,
+            fields,
+            neighbourhood: Neighbourhood::default(),
+            patch: Patch::default(),
+            n_fusions: 0,
+        }
+    }
+
+    /// The fusions made so far, as a stamp.
+    #[expect(clippy::cast_possible_truncation, reason = "fewer fusions than vertices")]
+    pub(super) fn now(&self) -> u32 {
+        self.n_fusions as u32
+    }
+
+    /// Makes a fusion whose neighbourhood is gathered; `changed` hears of every slot with new corners. Returns the new vertex.
+    pub(super) fn fuse(&mut self, prey: &Prey, accepted: &Accepted, mut changed: impl FnMut(u32)) -> u32 {
+        let quadric = self.metric.of(prey.vertices());
+        self.recorder.step(accepted.error);
+        self.fields.add_vertex(&self.mesh, &self.neighbourhood, prey.vertices(), accepted.point);
+        self.n_fusions += 1;
+        let now = self.now();
+        for &slot in &self.neighbourhood.deleted {
+            if let Some(corners) = self.mesh.get(slot) {
+                self.recorder.death(slot, corners);
+                self.mesh.remove(slot);
+                corners.iter().for_each(|&v| self.touched[v as usize] = now);
+            }
+        }
+        let new = self.recorder.vertex();
+        self.mesh.add_vertex(accepted.point);
+        for affected in &self.neighbourhood.affected {
+            let slot = affected.slot;
+            if let Some(corners) = self.mesh.get(slot) {
+                self.recorder.death(slot, corners);
+                self.recorder.birth(slot);
+                let bits = self.neighbourhood.boundary_bits(&self.mesh, prey, affected);
+                self.mesh.move_corner(slot, affected.corner, bits);
+                affected.base.iter().for_each(|&v| self.touched[v as usize] = now);
+                changed(slot);
+            }
+        }
+        self.touched.push(now);
+        self.errors.push(accepted.error);
+        self.fields.deviate(&self.mesh, &self.neighbourhood, prey.vertices(), new);
+        self.metric.add_vertex(prey.vertices());
+        self.creases.add_vertex(prey.vertices());
+        self.six_volumes_left -= accepted.six_volumes_lost;
+        self.record_deviations(&quadric, accepted.point.map(f64::from));
+        new
+    }
+
+    fn record_deviations(&mut self, quadric: &Quadric, p: Vector) {
+        let [xx, _, _, yy, _, zz] = quadric.a;
+        let squared = quadric.at(self.metric.local(p)).max(0.0) / (xx + yy + zz).max(f64::MIN_POSITIVE);
+        let last = self.quadric_distances.last().copied().unwrap_or(0.0);
+        self.quadric_distances.push(last.max(squared.sqrt()));
+        for (values, &worst) in self.field_deviations.iter_mut().zip(&self.fields.worst) {
+            values.push(worst);
+        }
+    }
+
+    /// The mesh and its history; `by_tetrahedra` are the fusions of tetrahedra and the tetrahedra they left.
+    pub(super) fn finish(self, input: &TetrahedronMesh, by_tetrahedra: [usize; 2]) -> Fused {
+        let mut history = self.recorder.finish(self.mesh.iter());
+        let names = std::iter::once("planar quadric").chain(self.fields.names()).map(str::to_owned);
+        let values = std::iter::once(self.quadric_distances).chain(self.field_deviations);
+        history.deviations = names.zip(values).map(|(name, values)| Deviation { name, values }).collect();
+        let mesh = TetrahedronMesh {
+            origin: input.origin,
+            positions: self.mesh.positions().to_vec(),
+            tetrahedra: input.tetrahedra.clone(),
+            attributes: self.fields.into_attributes(),
+            rounding: input.rounding,
+        };
+        let [n_tetrahedron_fusions, n_left_by_tetrahedra] = by_tetrahedra;
+        Fused { mesh, history, n_fusions: self.n_fusions, n_tetrahedron_fusions, n_left_by_tetrahedra }
+    }
+}
+
+fn bounds(mesh: &TetrahedronMesh) -> (Vector, Vector) {
+    let start = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    let points = mesh.positions.iter().map(|p| p.map(f64::from));
+    points.fold(start, |(low, high), p| (min(low, p), max(high, p)))
+}

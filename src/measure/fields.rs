@@ -1,0 +1,104 @@
+//! How far the fields of two volumes are apart: sampled at the vertices of each, in the other.
+
+use super::locator::Locator;
+use nephrite_formats::{Attribute, TetrahedronMesh};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// How far one field of two volumes is apart, in the field's own unit. A field of several components is measured by the length of the
+/// difference. Sampled, not proven.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FieldDistance {
+    /// Name of the field, which both volumes have.
+    pub name: String,
+    /// The larger of both directions.
+    pub max: f64,
+    /// Largest difference at a vertex of the reference.
+    pub max_forward: f64,
+    /// Largest difference at a vertex of the mesh.
+    pub max_backward: f64,
+    /// Root of the mean squared difference at the vertices of the reference.
+    pub rms: f64,
+    /// Length of the diagonal of the box of all values of the reference: what percentages may refer to.
+    pub range: f64,
+    /// Vertices of both volumes at which it was sampled.
+    pub n_samples: usize,
+    /// Vertices of both that are outside the other volume and were left out.
+    pub n_outside: usize,
+}
+
+/// Measures every field that both volumes have under one name and with as many components. O(n log n).
+pub fn measure_fields(reference: &TetrahedronMesh, mesh: &TetrahedronMesh) -> Vec<FieldDistance> {
+    let pairs: Vec<[&Attribute; 2]> = reference
+        .attributes
+        .iter()
+        .filter_map(|field| {
+            let same = mesh.attribute(&field.name)?;
+            (same.n_components == field.n_components).then_some([field, same])
+        })
+        .collect();
+    if pairs.is_empty() {
+        return Vec::new();
+    }
+    let forward = Places::find(reference, mesh);
+    let backward = Places::find(mesh, reference);
+    let measured = pairs.par_iter().map(|[ours, theirs]| {
+        let n = ours.n_components as usize;
+        let values = [ours, theirs].map(|field| field.values().collect::<Vec<f64>>());
+        let [there, back] =
+            [forward.differences(&values[0], &values[1], n), backward.differences(&values[1], &values[0], n)];
+        let max = |differences: &[f64]| differences.iter().copied().fold(0.0, f64::max);
+        let squares: f64 = there.iter().map(|difference| difference * difference).sum();
+        let n_samples = there.len() + back.len();
+        FieldDistance {
+            name: ours.name.clone(),
+            max: max(&there).max(max(&back)),
+            max_forward: max(&there),
+            max_backward: max(&back),
+            rms: (squares / there.len().max(1) as f64).sqrt(),
+            range: range(&values[0], n),
+            n_samples,
+            n_outside: reference.positions.len() + mesh.positions.len() - n_samples,
+        }
+    });
+    measured.collect()
+}
+
+/// Where the vertices of one volume are in the other.
+struct Places {
+    places: Vec<Option<([u32; 4], [f64; 4])>>,
+}
+
+impl Places {
+    fn find(vertices: &TetrahedronMesh, volume: &TetrahedronMesh) -> Self {
+        let locator = Locator::new(volume);
+        let shift: [f64; 3] = std::array::from_fn(|axis| vertices.origin[axis] - volume.origin[axis]);
+        let find = |p: &[f32; 3]| locator.find(std::array::from_fn(|axis| f64::from(p[axis]) + shift[axis]));
+        Self { places: vertices.positions.par_iter().map(find).collect() }
+    }
+
+    /// The lengths of the differences between values at vertices and those of the other volume at their places.
+    fn differences(&self, ours: &[f64], theirs: &[f64], n: usize) -> Vec<f64> {
+        let placed = self.places.iter().enumerate().filter_map(|(v, place)| Some((v, (*place)?)));
+        placed
+            .map(|(v, (corners, weights))| {
+                let square = |component: usize| {
+                    let value = |corner: u32| theirs[corner as usize * n + component];
+                    let there: f64 = corners.iter().zip(weights).map(|(&corner, w)| w * value(corner)).sum();
+                    (ours[v * n + component] - there).powi(2)
+                };
+                (0..n).map(square).sum::<f64>().sqrt()
+            })
+            .collect()
+    }
+}
+
+fn range(values: &[f64], n: usize) -> f64 {
+    let side = |component: usize| {
+        let values = values.iter().skip(component).step_by(n);
+        let start = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = values.fold(start, |(low, high), &value| (low.min(value), high.max(value)));
+        if high > low { (high - low).powi(2) } else { 0.0 }
+    };
+    (0..n).map(side).sum::<f64>().sqrt()
+}

@@ -1,0 +1,346 @@
+//! From the tetrahedra of a file to tetrahedra that fit each other: weld, drop, turn, right, count everything.
+//!
+//! The rules, in this order:
+//!
+//! 1. Vertices at one position become one where the mesh stays one by it: everywhere if no face gets a third tetrahedron and no
+//!    edge of the boundary a third face by that; otherwise only within tetrahedra, which are flat and go. A grid that is wrapped
+//!    around on itself with crossing diagonals keeps its seam that way.
+//! 2. A tetrahedron with two corners in one vertex, or with the corners of an earlier one, is dropped.
+//! 3. Corners in the wrong order are put right: where the volume is negative and the faces do not fit those of the neighbours,
+//!    or all are negative.
+//! 4. What is negative still is turned inside out by its vertices. It is righted by moving one vertex inside the mesh towards
+//!    the middle of its neighbours, if that makes all volumes around it positive, and kept otherwise.
+//! 5. A tetrahedron of zero volume with four distinct corners is kept: its neighbours are joined through it.
+//! 6. Vertices that no tetrahedron uses are dropped.
+
+use super::tetrahedra::{FACES, FaceLists, boundary_faces};
+use nephrite_formats::{Attribute, TetrahedronMesh};
+use serde::{Deserialize, Serialize};
+
+/// How many vertices and tetrahedra each rule of the repair touched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TetrahedronRepairReport {
+    /// Vertices merged into another at the same position.
+    pub vertices_welded: usize,
+    /// Vertices at the position of another that were kept apart.
+    pub vertices_coincident: usize,
+    /// Vertices dropped because no tetrahedron uses them.
+    pub vertices_unreferenced: usize,
+    /// Vertices moved to right a tetrahedron.
+    pub vertices_moved: usize,
+    /// Tetrahedra dropped because two of their corners are one vertex.
+    pub tetrahedra_degenerate: usize,
+    /// Tetrahedra dropped because an earlier one has the same corners.
+    pub tetrahedra_duplicate: usize,
+    /// Tetrahedra whose corners were put in the right order.
+    pub tetrahedra_turned: usize,
+    /// Tetrahedra of zero volume, kept.
+    pub tetrahedra_flat: usize,
+    /// Tetrahedra of negative volume, kept.
+    pub tetrahedra_inverted: usize,
+    /// Faces of three tetrahedra or more, whose corners stay where they are.
+    pub faces_crowded: usize,
+}
+
+/// Applies the rules of this module. O(n log n).
+pub fn repair_tetrahedra(input: &TetrahedronMesh) -> (TetrahedronMesh, TetrahedronRepairReport) {
+    let mut report = TetrahedronRepairReport::default();
+    let mut tetrahedra = weld(input, &mut report);
+    drop_duplicates(&mut tetrahedra, &mut report);
+    let mut mesh = keep_used(input, tetrahedra, &mut report);
+    turn(&mut mesh, &mut report);
+    right(&mut mesh, &mut report);
+    report.tetrahedra_flat = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) == 0.0).count();
+    report.tetrahedra_inverted = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) < 0.0).count();
+    let lists = FaceLists::new(&mesh.tetrahedra, mesh.positions.len());
+    report.faces_crowded = lists
+        .into_lists()
+        .map(|mut list| {
+            list.sort_unstable();
+            list.chunk_by(|a, b| a.others == b.others).filter(|same| same.len() > 2).count()
+        })
+        .sum();
+    (mesh, report)
+}
+
+/// The tetrahedra over welded vertices, without those that are degenerate by it.
+fn weld(input: &TetrahedronMesh, report: &mut TetrahedronRepairReport) -> Vec<[u32; 4]> {
+    let n_vertices = input.positions.len();
+    let firsts = first_at_position(input);
+    let n_coincident = (0u32..).zip(&firsts).filter(|(v, first)| v != *first).count();
+    let without_degenerate = |firsts: &[u32]| -> Vec<[u32; 4]> {
+        let welded = input.tetrahedra.iter().map(|t| t.map(|v| firsts[v as usize]));
+        welded.filter(|&t| !is_degenerate(t)).collect()
+    };
+    let mut tetrahedra = without_degenerate(&firsts);
+    let mut firsts = firsts;
+    if n_coincident > 0 && n_faults(&tetrahedra, n_vertices) > n_faults(&input.tetrahedra, n_vertices) {
+        firsts = first_in_tetrahedra(input, &firsts);
+        tetrahedra = without_degenerate(&firsts);
+    }
+    report.vertices_welded = (0u32..).zip(&firsts).filter(|(v, first)| v != *first).count();
+    report.vertices_coincident = n_coincident - report.vertices_welded;
+    report.tetrahedra_degenerate = input.tetrahedra.len() - tetrahedra.len();
+    tetrahedra
+}
+
+fn is_degenerate([a, b, c, d]: [u32; 4]) -> bool {
+    a == b || a == c || a == d || b == c || b == d || c == d
+}
+
+/// The first vertex at the position of each, `-0` equal to `0`.
+fn first_at_position(mesh: &TetrahedronMesh) -> Vec<u32> {
+    let key = |v: u32| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits());
+    #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+    let mut order: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    order.sort_unstable_by_key(|&v| (key(v), v));
+    let mut firsts: Vec<u32> = order.clone();
+    for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        same.iter().for_each(|&v| firsts[v as usize] = same[0]);
+    }
+    firsts
+}
+
+/// As `firsts`, but only where a tetrahedron has both vertices.
+fn first_in_tetrahedra(mesh: &TetrahedronMesh, firsts: &[u32]) -> Vec<u32> {
+    #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+    let mut roots: Vec<u32> = (0..firsts.len() as u32).collect();
+    let find = |roots: &[u32], mut v: u32| {
+        while roots[v as usize] != v {
+            v = roots[v as usize];
+        }
+        v
+    };
+    for tetrahedron in &mesh.tetrahedra {
+        for (i, &a) in tetrahedron.iter().enumerate() {
+            for &b in &tetrahedron[..i] {
+                if firsts[a as usize] == firsts[b as usize] {
+                    let (a, b) = (find(&roots, a), find(&roots, b));
+                    roots[a.max(b) as usize] = a.min(b);
+                }
+            }
+        }
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+    (0..firsts.len() as u32).map(|v| find(&roots, v)).collect()
+}
+
+/// Faces with more than two tetrahedra, and edges of the boundary with other than two faces.
+fn n_faults(tetrahedra: &[[u32; 4]], n_vertices: usize) -> usize {
+    let mut n_faults = 0;
+    let mut edges: Vec<[u32; 2]> = Vec::new();
+    for mut list in FaceLists::new(tetrahedra, n_vertices).into_lists() {
+        list.sort_unstable();
+        for same in list.chunk_by(|a, b| a.others == b.others) {
+            n_faults += usize::from(same.len() > 2);
+            if let [face] = same {
+                let [a, b, c] = FACES[face.corner as usize].map(|i| tetrahedra[face.slot as usize][i]);
+                edges.extend([[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]));
+            }
+        }
+    }
+    edges.sort_unstable();
+    n_faults + edges.chunk_by(|a, b| a == b).filter(|faces| faces.len() != 2).count()
+}
+
+fn drop_duplicates(tetrahedra: &mut Vec<[u32; 4]>, report: &mut TetrahedronRepairReport) {
+    let key = |mut t: [u32; 4]| {
+        t.sort_unstable();
+        t
+    };
+    let mut order: Vec<(usize, [u32; 4])> = tetrahedra.iter().map(|&t| key(t)).enumerate().collect();
+    order.sort_unstable_by_key(|&(index, key)| (key, index));
+    let mut is_kept = vec![true; tetrahedra.len()];
+    for same in order.chunk_by(|a, b| a.1 == b.1) {
+        same[1..].iter().for_each(|&(index, _)| is_kept[index] = false);
+    }
+    let n_before = tetrahedra.len();
+    let mut kept = is_kept.into_iter();
+    tetrahedra.retain(|_| kept.next().unwrap_or(true));
+    report.tetrahedra_duplicate = n_before - tetrahedra.len();
+}
+
+fn keep_used(
+    input: &TetrahedronMesh,
+    mut tetrahedra: Vec<[u32; 4]>,
+    report: &mut TetrahedronRepairReport,
+) -> TetrahedronMesh {
+    const UNUSED: u32 = u32::MAX;
+    let mut numbers = vec![UNUSED; input.positions.len()];
+    tetrahedra.iter().flatten().for_each(|&v| numbers[v as usize] = 0);
+    let mut used = Vec::new();
+    for (v, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number != UNUSED) {
+        *number = u32::try_from(used.len()).unwrap_or(UNUSED);
+        used.push(v);
+    }
+    report.vertices_unreferenced = input.positions.len() - used.len() - report.vertices_welded;
+    tetrahedra.iter_mut().flatten().for_each(|v| *v = numbers[*v as usize]);
+    let attributes = input.attributes.iter().map(|attribute| {
+        let stride = attribute.stride_bytes();
+        let bytes = used.iter().flat_map(|&v| &attribute.bytes[v * stride..][..stride]).copied().collect();
+        Attribute { bytes, ..attribute.clone() }
+    });
+    TetrahedronMesh {
+        origin: input.origin,
+        positions: used.iter().map(|&v| input.positions[v]).collect(),
+        attributes: attributes.collect(),
+        tetrahedra,
+        rounding: input.rounding,
+    }
+}
+
+/// Puts corners in the right order, by rule 3.
+fn turn(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
+    let negative: Vec<usize> =
+        (0..mesh.tetrahedra.len()).filter(|&i| mesh.six_volumes(mesh.tetrahedra[i]) < 0.0).collect();
+    if negative.is_empty() {
+        return;
+    }
+    negative.iter().for_each(|&i| mesh.tetrahedra[i].swap(0, 1));
+    report.tetrahedra_turned = negative.len();
+    if negative.len() == mesh.tetrahedra.len() {
+        return;
+    }
+    // Positive now, but those whose every shared face is seen from the side of the neighbour were in order before.
+    let fits = fitting_faces(mesh);
+    for i in negative {
+        let [n_fitting, n_shared] = fits[i];
+        if n_shared > 0 && n_fitting == 0 {
+            mesh.tetrahedra[i].swap(0, 1);
+            report.tetrahedra_turned -= 1;
+        }
+    }
+}
+
+/// Of each tetrahedron the faces that a neighbour sees from the other side, and those it shares.
+fn fitting_faces(mesh: &TetrahedronMesh) -> Vec<[u8; 2]> {
+    let mut counts = vec![[0; 2]; mesh.tetrahedra.len()];
+    let is_even = |slot: u32, corner: u32| {
+        let [a, b, c] = FACES[corner as usize].map(|i| mesh.tetrahedra[slot as usize][i]);
+        (u8::from(a > b) + u8::from(b > c) + u8::from(a > c)) & 1 == 0
+    };
+    for mut list in FaceLists::new(&mesh.tetrahedra, mesh.positions.len()).into_lists() {
+        list.sort_unstable();
+        for same in list.chunk_by(|a, b| a.others == b.others) {
+            if let [a, b] = same {
+                let fits = is_even(a.slot, a.corner) != is_even(b.slot, b.corner);
+                for face in [a, b] {
+                    counts[face.slot as usize][0] += u8::from(fits);
+                    counts[face.slot as usize][1] += 1;
+                }
+            }
+        }
+    }
+    counts
+}
+
+/// Moves vertices to make volumes positive, by rule 4.
+fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
+    let inverted: Vec<[u32; 4]> =
+        mesh.tetrahedra.iter().copied().filter(|&t| mesh.six_volumes(t) < 0.0).collect();
+    if inverted.is_empty() {
+        return;
+    }
+    let mut is_on_boundary = vec![false; mesh.positions.len()];
+    for (tetrahedron, bits) in
+        mesh.tetrahedra.iter().zip(boundary_faces(&mesh.tetrahedra, mesh.positions.len()))
+    {
+        for corner in (0..4).filter(|corner| bits >> corner & 1 == 1) {
+            FACES[corner].iter().for_each(|&i| is_on_boundary[tetrahedron[i] as usize] = true);
+        }
+    }
+    for tetrahedron in inverted {
+        if mesh.six_volumes(tetrahedron) >= 0.0 {
+            continue;
+        }
+        let inner = tetrahedron.into_iter().filter(|&v| !is_on_boundary[v as usize]);
+        for v in inner {
+            if move_to_middle(mesh, v) {
+                report.vertices_moved += 1;
+                break;
+            }
+        }
+    }
+}
+
+/// Moves a vertex as little as makes every tetrahedron around it positive, or not at all.
+fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32) -> bool {
+    const PARTS: f32 = 16.0;
+    let star: Vec<[u32; 4]> = mesh.tetrahedra.iter().copied().filter(|t| t.contains(&v)).collect();
+    let others: Vec<u32> = star.iter().flatten().copied().filter(|&w| w != v).collect();
+    let mut middle = [0.0_f32; 3];
+    for &w in &others {
+        let part = 1.0 / others.len() as f32;
+        (0..3).for_each(|axis| middle[axis] += part * mesh.positions[w as usize][axis]);
+    }
+    let before = mesh.positions[v as usize];
+    for step in 1..=16_u8 {
+        let part = f32::from(step) / PARTS;
+        mesh.positions[v as usize] =
+            std::array::from_fn(|axis| before[axis] + part * (middle[axis] - before[axis]));
+        if star.iter().all(|&t| mesh.six_volumes(t) > 0.0) {
+            return true;
+        }
+    }
+    mesh.positions[v as usize] = before;
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(positions: &[[f32; 3]], tetrahedra: &[[u32; 4]]) -> TetrahedronMesh {
+        TetrahedronMesh {
+            positions: positions.to_vec(),
+            tetrahedra: tetrahedra.to_vec(),
+            ..Default::default()
+        }
+    }
+
+    const POINTS: [[f32; 3]; 5] =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+
+    #[test]
+    fn every_rule_counts_what_it_does() {
+        let mut points = POINTS.to_vec();
+        // A copy of vertex 0, used beside it, and a vertex that nobody uses.
+        points.extend([[-0.0, 0.0, 0.0], [5.0; 3]]);
+        let tetrahedra = [[0, 1, 2, 3], [1, 2, 3, 4], [5, 2, 1, 3], [0, 5, 1, 2]];
+        let (mesh, report) = repair_tetrahedra(&mesh(&points, &tetrahedra));
+        assert_eq!(mesh.tetrahedra.len(), 2);
+        assert!(mesh.tetrahedra.iter().all(|&t| mesh.six_volumes(t) > 0.0));
+        let expected = TetrahedronRepairReport {
+            vertices_welded: 1,
+            vertices_unreferenced: 1,
+            tetrahedra_degenerate: 1,
+            tetrahedra_duplicate: 1,
+            ..Default::default()
+        };
+        assert_eq!(report, expected);
+    }
+
+    #[test]
+    fn wrong_orders_are_turned() {
+        let (turned, report) = repair_tetrahedra(&mesh(&POINTS, &[[1, 0, 2, 3], [1, 2, 3, 4]]));
+        assert_eq!((report.tetrahedra_turned, report.tetrahedra_inverted), (1, 0));
+        assert!(turned.tetrahedra.iter().all(|&t| turned.six_volumes(t) > 0.0));
+        let (_, report) = repair_tetrahedra(&mesh(&POINTS, &[[1, 0, 2, 3], [2, 1, 3, 4]]));
+        assert_eq!((report.tetrahedra_turned, report.tetrahedra_inverted), (2, 0));
+    }
+
+    #[test]
+    fn a_vertex_that_turns_a_tetrahedron_inside_out_is_moved_back() {
+        // A vertex in the middle of a tetrahedron, pushed out through one of its faces.
+        let around = |point| {
+            let mut points = POINTS[..4].to_vec();
+            points.push(point);
+            mesh(&points, &[[4, 1, 2, 3], [0, 4, 2, 3], [0, 1, 4, 3], [0, 1, 2, 4]])
+        };
+        let (_, report) = repair_tetrahedra(&around([0.25; 3]));
+        assert_eq!(report, TetrahedronRepairReport::default());
+        let (righted, report) = repair_tetrahedra(&around([0.25, 0.25, -0.01]));
+        assert_eq!((report.vertices_moved, report.tetrahedra_inverted), (1, 0));
+        assert!((righted.volume() - 1.0 / 6.0).abs() < 1e-6);
+    }
+}

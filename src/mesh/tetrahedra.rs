@@ -1,0 +1,260 @@
+//! Tetrahedra while they are being fused: flat arrays, with the star of every vertex at hand.
+//!
+//! A tetrahedron keeps its slot while its corners change, and a slot is never used again. So the star of a vertex stays right
+//! without being touched when tetrahedra around it die: whoever reads it passes over the dead. A new vertex gets its star at
+//! the end of the pool, once.
+
+use crate::geometry::vector::{cross, dot, sub};
+use nephrite_formats::TetrahedronMesh;
+
+/// Corners of the face opposite each corner, counter-clockwise seen from outside a tetrahedron of positive volume.
+pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+
+/// First corner of a slot whose tetrahedron is dead.
+const DEAD: u32 = u32::MAX;
+
+/// Tetrahedra in slots over growing vertices.
+///
+/// Memory: 25 bytes per slot, 28 per vertex, 16 per tetrahedron in the stars.
+#[derive(Clone, Debug, Default)]
+pub struct Tetrahedra {
+    positions: Vec<[f32; 3]>,
+    corners: Vec<[u32; 4]>,
+    /// Bit `i`: nothing is on the other side of the face opposite corner `i`.
+    boundary: Vec<u8>,
+    stars: Vec<Star>,
+    pool: Vec<u32>,
+    n_alive: usize,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Star {
+    start: u32,
+    len: u32,
+    /// Dead slots among them.
+    n_dead: u32,
+}
+
+impl Tetrahedra {
+    /// The tetrahedra of a mesh, each in the slot of its index. No two share all four corners. O(n).
+    pub fn new(mesh: &TetrahedronMesh) -> Self {
+        let positions = mesh.positions.clone();
+        let corners = mesh.tetrahedra.clone();
+        let mut stars = vec![Star::default(); positions.len()];
+        for &v in corners.as_flattened() {
+            stars[v as usize].len += 1;
+        }
+        let mut start = 0;
+        for star in &mut stars {
+            star.start = start;
+            start += std::mem::take(&mut star.len);
+        }
+        let mut pool = vec![0; start as usize];
+        for (slot, tetrahedron) in (0..).zip(&corners) {
+            for &v in tetrahedron {
+                let star = &mut stars[v as usize];
+                pool[(star.start + star.len) as usize] = slot;
+                star.len += 1;
+            }
+        }
+        let boundary = boundary_faces(&corners, positions.len());
+        let n_alive = corners.len();
+        Self { positions, corners, boundary, stars, pool, n_alive }
+    }
+
+    /// Tetrahedra alive.
+    pub fn n_alive(&self) -> usize {
+        self.n_alive
+    }
+
+    /// Slots, dead ones included.
+    pub fn n_slots(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// Vertices, dead ones included.
+    pub fn n_vertices(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Positions of all vertices.
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// A vertex's position in `f64`.
+    #[inline(always)]
+    pub fn position(&self, v: u32) -> [f64; 3] {
+        self.positions[v as usize].map(f64::from)
+    }
+
+    /// Corners of the tetrahedron in a slot, if it is alive.
+    #[inline(always)]
+    pub fn get(&self, slot: u32) -> Option<[u32; 4]> {
+        let corners = self.corners[slot as usize];
+        (corners[0] != DEAD).then_some(corners)
+    }
+
+    /// Tetrahedra alive, with their slots.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 4])> + '_ {
+        (0..)
+            .zip(&self.corners)
+            .filter(|(_, corners)| corners[0] != DEAD)
+            .map(|(slot, &corners)| (slot, corners))
+    }
+
+    /// Slots that hold or held a tetrahedron at `v`: all of its star, and dead ones.
+    #[inline]
+    pub fn slots_at(&self, v: u32) -> &[u32] {
+        let Star { start, len, .. } = self.stars[v as usize];
+        &self.pool[start as usize..][..len as usize]
+    }
+
+    /// Faces of a tetrahedron on the boundary: bit `i` for the one opposite corner `i`.
+    #[inline(always)]
+    pub fn boundary_bits(&self, slot: u32) -> u8 {
+        self.boundary[slot as usize]
+    }
+
+    /// The faces of the boundary, seen counter-clockwise from outside.
+    pub fn boundary(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        self.iter().flat_map(|(slot, corners)| {
+            let bits = self.boundary[slot as usize];
+            (0..4).filter(move |i| bits >> i & 1 == 1).map(move |i| FACES[i].map(|j| corners[j]))
+        })
+    }
+
+    /// Adds a vertex without a star.
+    pub fn add_vertex(&mut self, position: [f32; 3]) {
+        self.positions.push(position);
+        #[expect(clippy::cast_possible_truncation, reason = "a star's entries are counted in u32")]
+        self.stars.push(Star { start: self.pool.len() as u32, ..Star::default() });
+    }
+
+    /// The tetrahedron in `slot` dies.
+    pub fn remove(&mut self, slot: u32) {
+        for v in self.corners[slot as usize] {
+            self.stars[v as usize].n_dead += 1;
+        }
+        self.corners[slot as usize][0] = DEAD;
+        self.n_alive -= 1;
+    }
+
+    /// Takes the dead out of a star where they are many. O(its slots).
+    pub fn purge(&mut self, v: u32) {
+        let star = &mut self.stars[v as usize];
+        if 4 * star.n_dead <= star.len {
+            return;
+        }
+        let slots = &mut self.pool[star.start as usize..][..star.len as usize];
+        let mut n_alive = 0;
+        for i in 0..slots.len() {
+            if self.corners[slots[i] as usize][0] != DEAD {
+                slots[n_alive] = slots[i];
+                n_alive += 1;
+            }
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "no more than before")]
+        let len = n_alive as u32;
+        (star.len, star.n_dead) = (len, 0);
+    }
+
+    /// Six times the volume of the tetrahedron in a slot; zero where it is dead.
+    pub fn six_volumes(&self, slot: u32) -> f64 {
+        self.get(slot).map_or(0.0, |corners| {
+            let [a, b, c, d] = corners.map(|v| self.position(v));
+            dot(cross(sub(b, a), sub(c, a)), sub(d, a))
+        })
+    }
+
+    /// Puts the newest vertex in the place of a corner, with new boundary bits.
+    pub fn move_corner(&mut self, slot: u32, corner: usize, boundary_bits: u8) {
+        #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
+        let newest = (self.positions.len() - 1) as u32;
+        self.corners[slot as usize][corner] = newest;
+        self.boundary[slot as usize] = boundary_bits;
+        self.pool.push(slot);
+        if let Some(star) = self.stars.last_mut() {
+            star.len += 1;
+        }
+    }
+}
+
+/// Which faces belong to one tetrahedron only. Faces meet in the list of their least vertex, so that nothing is hashed
+/// and no list is longer than a star. O(n).
+pub(super) fn boundary_faces(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<u8> {
+    let mut bits = vec![0u8; tetrahedra.len()];
+    let lists = FaceLists::new(tetrahedra, n_vertices);
+    for mut list in lists.into_lists() {
+        list.sort_unstable();
+        for same in list.chunk_by(|a, b| a.others == b.others) {
+            if let [face] = same {
+                bits[face.slot as usize] |= 1 << face.corner;
+            }
+        }
+    }
+    bits
+}
+
+/// The faces that belong to one tetrahedron only, seen counter-clockwise from outside. O(n).
+pub fn boundary_triangles(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<[u32; 3]> {
+    let bits = boundary_faces(tetrahedra, n_vertices);
+    let faces = tetrahedra.iter().zip(bits).flat_map(|(corners, bits)| {
+        (0..4).filter(move |i| bits >> i & 1 == 1).map(move |i| FACES[i].map(|j| corners[j]))
+    });
+    faces.collect()
+}
+
+/// A face in the list of its least vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Face {
+    /// Its other vertices, ascending.
+    pub others: [u32; 2],
+    pub slot: u32,
+    /// The corner of the slot that it is opposite to.
+    pub corner: u32,
+}
+
+/// The faces of all tetrahedra by their least vertex.
+pub(super) struct FaceLists {
+    ends: Vec<u32>,
+    faces: Vec<Face>,
+}
+
+impl FaceLists {
+    pub(super) fn new(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Self {
+        let least = |tetrahedron: &[u32; 4], corner: usize| {
+            let mut face = FACES[corner].map(|i| tetrahedron[i]);
+            face.sort_unstable();
+            face
+        };
+        let mut ends = vec![0u32; n_vertices + 1];
+        for tetrahedron in tetrahedra {
+            (0..4).for_each(|corner| ends[least(tetrahedron, corner)[0] as usize + 1] += 1);
+        }
+        for v in 1..ends.len() {
+            ends[v] += ends[v - 1];
+        }
+        let mut faces = vec![Face::default(); 4 * tetrahedra.len()];
+        for (slot, tetrahedron) in (0..).zip(tetrahedra) {
+            for corner in 0..4 {
+                let [v, a, b] = least(tetrahedron, corner as usize);
+                let end = &mut ends[v as usize];
+                faces[*end as usize] = Face { others: [a, b], slot, corner };
+                *end += 1;
+            }
+        }
+        Self { ends, faces }
+    }
+
+    /// The list of every vertex that is the least of a face.
+    pub(super) fn into_lists(self) -> impl Iterator<Item = Vec<Face>> {
+        let Self { ends, faces } = self;
+        let mut start = 0;
+        ends.into_iter().map(move |end| {
+            let range = start..(end as usize).max(start);
+            start = range.end;
+            faces[range].to_vec()
+        })
+    }
+}

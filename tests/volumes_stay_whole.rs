@@ -1,0 +1,152 @@
+//! Promise: every level of a volume is a whole volume: nothing inverted, the volume within 0.1 %, the topology of its boundary, its
+//! corners and creases, and a linear field kept, and the boundary as near to the input's as the level says.
+#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use nephrite::generate::{ball_volume, box_volume};
+use nephrite::measure::{Verdict, check_within, measure_fields};
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{Lod, TetrahedronMesh, TriangleMesh, VolumeBuild, VolumeOptions, build_volume, volume};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
+use std::ops::ControlFlow::Continue;
+use std::path::PathBuf;
+
+fn built(mesh: &TetrahedronMesh, options: &VolumeOptions) -> (VolumeBuild, Lod) {
+    let build = build_volume(mesh, options, &|_| Continue(())).unwrap();
+    let mut stream = Cursor::new(Vec::new());
+    let options = StoreOptions::default();
+    write_to(&mut stream, &build.mesh, &build.history, &Provenance::default(), &options).unwrap();
+    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
+    lod.verify().unwrap();
+    (build, lod)
+}
+
+/// Levels spread over the file, the first and the last among them.
+fn spread(lod: &Lod, n: u32) -> BTreeSet<u32> {
+    (0..=n).map(|i| (lod.n_levels() - 1) * i / n).collect()
+}
+
+/// Euler characteristic and components of a closed surface whose every edge has two faces.
+fn topology(surface: &TriangleMesh) -> (i64, usize) {
+    let mut edges: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    let mut roots: Vec<u32> = (0..surface.positions.len() as u32).collect();
+    fn root(roots: &[u32], mut v: u32) -> u32 {
+        while roots[v as usize] != v {
+            v = roots[v as usize];
+        }
+        v
+    }
+    for &[a, b, c] in &surface.triangles {
+        for [p, q] in [[a, b], [b, c], [c, a]] {
+            *edges.entry([p.min(q), p.max(q)]).or_insert(0) += 1;
+            let (p, q) = (root(&roots, p), root(&roots, q));
+            roots[p.max(q) as usize] = p.min(q);
+        }
+    }
+    assert!(edges.values().all(|&n_faces| n_faces == 2), "the boundary is no surface");
+    let n_components = roots.iter().enumerate().filter(|&(v, &root)| v == root as usize).count();
+    let characteristic = surface.positions.len() as i64 - edges.len() as i64 + surface.triangles.len() as i64;
+    (characteristic, n_components)
+}
+
+/// Checks what holds of every volume, at every level given.
+fn check(input: &TetrahedronMesh, lod: &Lod, levels: &BTreeSet<u32>) {
+    let surface = volume::boundary(&lod.at_level(0).to_volume().unwrap());
+    let expected = topology(&surface);
+    for &level in levels {
+        let cut = lod.at_level(level);
+        let mesh = cut.to_volume().unwrap();
+        mesh.check().unwrap();
+        assert!(mesh.tetrahedra.iter().all(|&t| mesh.six_volumes(t) > 0.0), "inverted at level {level}");
+        let kept = mesh.volume() / input.volume();
+        assert!((kept - 1.0).abs() <= 0.001, "{kept} of the volume at level {level}");
+        let boundary = cut.boundary().unwrap();
+        assert_eq!(topology(&boundary), expected, "level {level}");
+        let verdict = check_within(&surface, &boundary, cut.error().max(1e-6), 50_000_000).unwrap();
+        assert_eq!(verdict, Verdict::Within, "level {level} states {}", cut.error());
+    }
+}
+
+#[test]
+fn a_box_keeps_its_corners_edges_and_linear_field() {
+    let input = box_volume([12, 11, 10]);
+    let (build, lod) = built(&input, &VolumeOptions::default());
+    let levels: BTreeSet<u32> = (0..lod.n_levels()).collect();
+    check(&input, &lod, &levels);
+    // Flat faces leave no reason to stop.
+    let coarsest = lod.at_level(lod.n_levels() - 1);
+    assert!(coarsest.n_simplices() * 20 < input.tetrahedra.len(), "{}", coarsest.n_simplices());
+    assert!(build.n_tetrahedron_fusions > 0);
+    for &level in &levels {
+        let mesh = lod.at_level(level).to_volume().unwrap();
+        let positions: BTreeSet<[u32; 3]> = mesh.positions.iter().map(|p| p.map(f32::to_bits)).collect();
+        for corner in 0..8 {
+            let corner =
+                [corner & 1, corner >> 1 & 1, corner >> 2 & 1].map(|bit: u32| (bit as f32).to_bits());
+            assert!(positions.contains(&corner), "level {level}");
+        }
+        // Volume 1 in the box [0, 1]^3 with straight faces: the box itself, with its edges.
+        assert!((mesh.volume() - 1.0).abs() < 1e-6);
+        assert!(mesh.positions.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+        let field: Vec<f64> = mesh.attribute("linear").unwrap().values().collect();
+        for (p, value) in mesh.positions.iter().zip(field) {
+            let [x, y, z] = p.map(f64::from);
+            assert!((1.0 + 2.0 * x + 3.0 * y - 4.0 * z - value).abs() < 1e-12, "level {level}");
+        }
+        for field in measure_fields(&input, &mesh) {
+            assert!(field.max < 1e-6 && field.n_outside == 0, "{field:?}");
+        }
+    }
+    let linear = build.history.deviations.iter().find(|deviation| deviation.name == "linear").unwrap();
+    let deviation = *linear.values.last().unwrap();
+    assert!(deviation < 1e-6, "{deviation:e}");
+}
+
+#[test]
+fn a_ball_stays_a_ball() {
+    let input = ball_volume(16);
+    let (build, lod) = built(&input, &VolumeOptions::default());
+    check(&input, &lod, &spread(&lod, 20));
+    // At least eleven tetrahedra go with one inside, the paper's lower bound.
+    let n_left = lod.at_level(lod.n_levels() - 1).n_simplices();
+    assert!(build.n_left_by_tetrahedra * 5 < 3 * input.tetrahedra.len(), "{}", build.n_left_by_tetrahedra);
+    assert!(n_left < build.n_left_by_tetrahedra);
+    assert!(input.tetrahedra.len() - build.n_left_by_tetrahedra >= 11 * build.n_tetrahedron_fusions);
+}
+
+#[test]
+fn a_limit_on_the_error_is_kept() {
+    let input = ball_volume(12);
+    let limit = 0.002;
+    let options = VolumeOptions { max_error: Some(limit), ..VolumeOptions::default() };
+    let (_, lod) = built(&input, &options);
+    assert!(lod.errors().iter().all(|&error| error <= limit));
+    check(&input, &lod, &spread(&lod, 5));
+}
+
+#[test]
+fn threads_do_not_change_the_history() {
+    let input = ball_volume(8);
+    let build = |n_threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        pool.install(|| build_volume(&input, &VolumeOptions::default(), &|_| Continue(())).unwrap())
+    };
+    assert_eq!(build(1), build(3));
+}
+
+#[test]
+fn the_paper_s_smallest_volume_reaches_its_reduction() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/volume/spx.vtk");
+    if !path.is_file() {
+        return;
+    }
+    let (input, _) = nephrite_formats::read_volume(&path).unwrap();
+    let (build, lod) = built(&input, &VolumeOptions::default());
+    check(&input, &lod, &spread(&lod, 12));
+    let reduction = 1.0 - build.n_left_by_tetrahedra as f64 / input.tetrahedra.len() as f64;
+    assert!(reduction >= 0.536_48, "{reduction}");
+    let per_fusion =
+        (input.tetrahedra.len() - build.n_left_by_tetrahedra) as f64 / build.n_tetrahedron_fusions as f64;
+    assert!(per_fusion >= 11.0, "{per_fusion}");
+}

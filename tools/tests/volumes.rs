@@ -1,0 +1,62 @@
+//! Volumes go the same way as surfaces: generated, built, looked into, taken out and measured.
+
+mod support;
+
+use support::{Workplace, number};
+
+#[test]
+fn a_volume_goes_the_whole_way() {
+    let place = Workplace::new();
+    place.done("generate ball --cells 10 -o in.vtu");
+    let build = place.json("build in.vtu -o out.neph --method fusion --field-weight 0.5");
+    for key in "tetrahedra_in vertices_in tetrahedra_stored levels coarsest_tetrahedra max_error bounding_diagonal seconds file_bytes"
+        .split(' ')
+    {
+        assert!(build[key].is_number(), "no {key} in {build}");
+    }
+    assert_eq!(number(&build, "tetrahedra_in"), 5000.0);
+    assert!(number(&build, "coarsest_tetrahedra") < 1500.0);
+    assert!(number(&build["deviations"], "radius") > 0.0);
+
+    let info = place.json("info out.neph");
+    assert_eq!(number(&info, "tetrahedra_in"), 5000.0);
+    assert_eq!(number(&info["curve"][0], "tetrahedra"), 5000.0);
+    assert_eq!(info["deviations"][1]["name"], "radius");
+    place.done("verify out.neph");
+
+    let extract = place.json("extract out.neph --tetrahedra 2500 -o lod.vtu");
+    let n = number(&extract, "tetrahedra");
+    assert!((1500.0..=2500.0).contains(&n), "{n}");
+    assert!(number(&extract["deviations"], "radius") <= number(&build["deviations"], "radius"));
+    place.done("extract out.neph --tetrahedra 2500 -o lod.vtk");
+    let boundary = place.json("extract out.neph --tetrahedra 2500 --boundary -o lod.ply");
+    assert!(number(&boundary, "triangles") > 0.0);
+    let slice = place.json("extract out.neph --tetrahedra 2500 --slice 0,0,-1,0.1 -o slice.ply");
+    assert!(number(&slice, "triangles") > 0.0);
+
+    let measure = place.json("measure in.vtu lod.vtk --samples 10000");
+    assert!(number(&measure, "lower_bound") <= number(&extract, "error"));
+    assert!((number(&measure, "volume") / number(&measure, "volume_reference") - 1.0).abs() <= 0.001);
+    assert_eq!(measure["fields"][0]["name"], "radius");
+}
+
+#[test]
+fn kinds_are_not_mixed_up() {
+    let place = Workplace::new();
+    place.done("generate box --cells 2 -o in.vtk");
+    place.done("build in.vtk -o volume.neph");
+    place.done("generate cosine --side 12 -o in.ply");
+    place.done("build in.ply -o surface.neph");
+    for line in [
+        "extract volume.neph --level 0 -o lod.ply",
+        "extract surface.neph --level 0 -o lod.vtu",
+        "extract surface.neph --level 0 --boundary -o lod.ply",
+        "extract volume.neph --level 0 -o lod.msh",
+        "build in.ply -o other.neph --method fusion",
+        "generate box -o box.ply",
+    ] {
+        let run = place.run(line);
+        assert_eq!(run.status, 1, "{line}: {}", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+}
