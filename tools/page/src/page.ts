@@ -5,7 +5,7 @@ import { asFailure, changed, Failure, unreachable } from "./neph/failure.ts";
 import { NephFile } from "./neph/file.ts";
 import { PAINTS, type Paint } from "./scene/shaders.ts";
 import { Stage } from "./scene/stage.ts";
-import { fromHash, nextAxis, type State, toHash } from "./state.ts";
+import { firstSelection, fromHash, nextAxis, type State, toHash } from "./state.ts";
 import { Curve } from "./ui/curve.ts";
 import { button, element } from "./ui/dom.ts";
 import { count } from "./ui/figures.ts";
@@ -98,6 +98,7 @@ async function show(listed: Listed): Promise<void> {
   try {
     const file = await NephFile.open(listed.url);
     if (current !== listed) return;
+    state.selection = firstSelection(state, file.levels.counts[0]);
     mine = viewing = new Viewing(file, stage, hand, state);
     viewing.onChange = () => {
       refresh();
@@ -107,7 +108,7 @@ async function show(listed: Listed): Promise<void> {
     stage.place = state.camera;
     showFacts(listed.name, viewing);
     const { levels, diagonal, metadata } = file;
-    curve.setSubject({ levels, diagonal, simplices: "triangles", inflections: inflections(metadata.inflections) });
+    curve.setSubject({ levels, diagonal, simplices: mine.isVolume ? "tetrahedra" : "triangles", inflections: inflections(metadata.inflections) });
     await viewing.read(() => {
       refresh();
       stage.render();

@@ -30,9 +30,19 @@ export interface State {
   theme: Theme | null;
 }
 
+/** Where nothing is said, a level of so many triangles, or of this part of the input's where that is fewer: coarse enough to be seen as one. */
+const FIRST_TRIANGLES = 5000;
+const FIRST_PART = 1 / 8;
+
+/** The selection to begin with for an input of so many triangles, if the address says none. */
+export function firstSelection({ selection }: State, nTriangles: number): Selection {
+  if (selection !== INITIAL.selection) return selection;
+  return { by: "triangles", value: Math.max(1, Math.min(FIRST_TRIANGLES, Math.round(FIRST_PART * nTriangles))) };
+}
+
 export const INITIAL: Readonly<State> = {
   file: "",
-  selection: { by: "triangles", value: 5000 },
+  selection: { by: "triangles", value: FIRST_TRIANGLES },
   unit: "percent",
   paint: "plain",
   isSmooth: false,

@@ -53,6 +53,8 @@ export class Viewing {
   private measuring: number | null = null;
   private measureTimer = 0;
   private hasVertices = false;
+  /** The plane that is shown through tetrahedra, empty for none. */
+  private slice = "";
   private hasBirths: "no" | "asked" | "yes" = "no";
   private normalsOf: number | null = null;
   private hasStopped = false;
@@ -76,8 +78,17 @@ export class Viewing {
     this.level = file.levels.coarsest;
     this.vertexCounts = file.levels.vertexCounts;
     stage.setSurface(this.surface, this.isZUp);
-    stage.left.add(this.main.group, this.overlay.group);
-    stage.right.add(this.original.group);
+    this.enter();
+  }
+
+  private enter(): void {
+    this.stage.left.add(this.main.group, this.overlay.group, this.surface.slice);
+    this.stage.right.add(this.original.group);
+  }
+
+  /** Whether the simplices are tetrahedra. */
+  get isVolume(): boolean {
+    return this.file.head.nCorners === 4;
   }
 
   get isZUp(): boolean {
@@ -115,8 +126,7 @@ export class Viewing {
     this.state = state;
     if (turned !== this.isZUp) {
       this.stage.setSurface(this.surface, this.isZUp);
-      this.stage.left.add(this.main.group, this.overlay.group);
-      this.stage.right.add(this.original.group);
+      this.enter();
     }
     this.update();
   }
@@ -187,8 +197,8 @@ export class Viewing {
   }
 
   private choose(level: number): void {
-    const isDeviation = this.state.paint === "deviation";
-    const canFlow = this.state.isMorphing && !isDeviation && this.hasAll;
+    const isDeviation = this.state.paint === "deviation" && !this.isVolume;
+    const canFlow = this.state.isMorphing && !isDeviation && !this.isVolume && this.hasAll;
     if (this.flow || this.isPreparingFlow) {
       if (canFlow) return;
       this.flow = null;
@@ -201,6 +211,23 @@ export class Viewing {
     this.show(level, 0);
     if (isDeviation && this.measured?.level !== level) this.measureSoon(level);
     if (this.state.paint === "birth") void this.readBirths();
+    if (this.isVolume) void this.cut(level);
+  }
+
+  /** Shows the plane of the section through the tetrahedra of a level. */
+  private async cut(level: number): Promise<void> {
+    const plane = this.section();
+    const wanted = plane && this.hasAll ? [level, ...plane.toArray()].join() : "";
+    if (wanted === this.slice) return;
+    this.slice = wanted;
+    if (!plane || !wanted) return this.surface.setSlice(null);
+    await this.giveVertices();
+    const tetrahedra = this.file.cut(level);
+    const job = { kind: "slice", tetrahedra, normal: [plane.x, plane.y, plane.z], distance: plane.w } as const;
+    const slice = await this.hand.do(job, [tetrahedra.buffer]);
+    if (this.hasStopped || this.slice !== wanted) return;
+    this.surface.setSlice(slice);
+    this.stage.draw();
   }
 
   private get hasAll(): boolean {
@@ -210,7 +237,8 @@ export class Viewing {
   private show(level: number, flight: number): void {
     const { state, surface, measured } = this;
     const edges = state.hasEdges ? "over" : "none";
-    const paint = state.paint === "birth" && this.hasBirths !== "yes" ? "plain" : state.paint;
+    const isReady = state.paint === "birth" ? this.hasBirths === "yes" : state.paint !== "deviation" || !this.isVolume;
+    const paint = isReady ? state.paint : "plain";
     const span = this.span(level);
     let pose: Pose = { level, paint, span, edges, flight };
     this.overlay.group.visible = false;
@@ -290,13 +318,16 @@ export class Viewing {
   }
 
   private async land(fine: number, coarse: number): Promise<Landed | null> {
-    if (!this.hasVertices) {
-      const positions = this.file.positions.slice();
-      this.hasVertices = true;
-      await this.hand.do({ kind: "vertices", positions }, [positions.buffer]);
-    }
+    await this.giveVertices();
     const [from, onto] = [this.file.cut(fine), this.file.cut(coarse)];
     return this.hand.do({ kind: "land", from, onto, level: coarse }, [from.buffer, onto.buffer]);
+  }
+
+  private async giveVertices(): Promise<void> {
+    if (this.hasVertices) return;
+    this.hasVertices = true;
+    const positions = this.file.positions.slice();
+    await this.hand.do({ kind: "vertices", positions }, [positions.buffer]);
   }
 
   private async readBirths(): Promise<void> {
@@ -313,7 +344,7 @@ export class Viewing {
   /** Normals of the finest level that is there: smooth shading shows what the surface is meant to be. */
   private makeNormals(): void {
     const level = this.arrival.finest;
-    if (level === null || level === this.normalsOf) return;
+    if (level === null || level === this.normalsOf || this.isVolume) return;
     this.normalsOf = level;
     const [positions, indices] = [this.file.positions.slice(), this.file.cut(level)];
     void this.hand.do({ kind: "normals", positions, indices }, [positions.buffer, indices.buffer]).then(({ normals }) => {

@@ -1,5 +1,7 @@
 // What the page asks of its worker, and what it gets.
 
+import type { Slice } from "./scene/tetrahedra.ts";
+
 /** Angle-weighted normals of the vertices that some triangles use; those of all others are zero. */
 export interface NormalsJob {
   kind: "normals";
@@ -24,7 +26,15 @@ export interface LandJob {
   level: number;
 }
 
-export type Job = NormalsJob | VerticesJob | LandJob;
+/** A plane through tetrahedra, four indices each. */
+export interface SliceJob {
+  kind: "slice";
+  tetrahedra: Uint32Array<ArrayBuffer>;
+  normal: readonly number[];
+  distance: number;
+}
+
+export type Job = NormalsJob | VerticesJob | LandJob | SliceJob;
 
 export interface Normals {
   normals: Float32Array<ArrayBuffer>;
@@ -40,4 +50,4 @@ export interface Landed {
 }
 
 /** `null` where a newer job of the same kind took the place of this one. */
-export type Result<J extends Job> = J extends NormalsJob ? Normals : J extends LandJob ? Landed | null : null;
+export type Result<J extends Job> = J extends NormalsJob ? Normals : J extends LandJob ? Landed | null : J extends SliceJob ? Slice : null;

@@ -2,6 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, Vector3 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
+import { slice } from "./scene/tetrahedra.ts";
 import type { Job, Landed, LandJob, Normals, NormalsJob } from "./work.ts";
 
 /** Vertices that land before the worker looks whether somebody wants something else. */
@@ -21,6 +22,9 @@ onmessage = async ({ data }: MessageEvent<{ id: number; job: Job }>) => {
       newestLanding = id;
       const result = await land(job, () => newestLanding !== id);
       postMessage({ id, result }, result ? [result.positions.buffer, result.distances.buffer] : []);
+    } else if (job.kind === "slice") {
+      const result = slice(job.tetrahedra, vertices, job.normal, job.distance);
+      postMessage({ id, result }, [result.positions.buffer, result.corners.buffer]);
     } else {
       vertices = job.positions;
       built = null;

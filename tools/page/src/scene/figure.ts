@@ -17,7 +17,7 @@ export interface Pose {
 }
 
 /** How much of what is below an edge hides. */
-const EDGE_STRENGTH = 0.62;
+export const EDGE_STRENGTH = 0.62;
 
 export class Figure {
   readonly group = new Group();
@@ -84,11 +84,10 @@ function list(material: ShaderMaterial): ShaderMaterial {
   return [material] as unknown as ShaderMaterial;
 }
 
-function setRuns(geometry: BufferGeometry, { file }: Surface, level: number): void {
+function setRuns(geometry: BufferGeometry, { file, drawnCorners }: Surface, level: number): void {
   geometry.clearGroups();
   if (level < 0) return;
-  const { nCorners } = file.head;
-  for (const { start, length } of file.levels.runs(level)) geometry.addGroup(start * nCorners, length * nCorners, 0);
+  for (const { start, length } of file.levels.runs(level)) geometry.addGroup(start * drawnCorners, length * drawnCorners, 0);
 }
 
 const RUN_COLORS = Array.from({ length: 34 }, (_, run) =>

@@ -25,12 +25,13 @@ const ramp = RAMP.map((color) => `vec3(${color.map((byte) => (byte / 255).toFixe
 
 const OUTPUTS = /* glsl */ `
   out vec3 seen;        // position as the camera sees it
-  out vec3 place;       // position in the mesh
+  centroid out vec3 place; // position in the mesh, never beyond the triangle
   out vec3 smoothNormal;
   out float part;       // what the ramp colours, from 0 to 1
 `;
 
 const EMIT = /* glsl */ `
+  uniform vec2 span;    // what has the first colour of the ramp, and what the last
   float onSpan(float value) {
     return (value - span.x) / max(span.y - span.x, 1e-30);
   }
@@ -45,7 +46,6 @@ const EMIT = /* glsl */ `
 
 export const indexedVertex = /* glsl */ `
   uniform float flight; // 0: vertices at their own places, 1: where they land
-  uniform vec2 span;    // what has the first colour of the ramp, and what the last
   uniform int paint;
   in vec3 landing;
   in float leaves;
@@ -62,12 +62,12 @@ export const indexedVertex = /* glsl */ `
 
 export const cornerVertex = /* glsl */ `
   uniform float flight;
-  uniform vec2 span;
   uniform int paint;
   uniform highp sampler2D positions; // and in w the level at which the vertex leaves
   uniform highp sampler2D normals;   // and in w the deviation
   uniform highp sampler2D landings;
   uniform highp usampler2D births;
+  uniform int drawnCorners;
   in uint vertex;
   ${OUTPUTS}
   out vec3 corner;
@@ -81,11 +81,29 @@ export const cornerVertex = /* glsl */ `
     vec4 normal = texelFetch(normals, texel, 0);
     part = onSpan(paint == ${PAINTS.deviation} ? normal.w : own.w);
     if (paint == ${PAINTS.birth}) {
-      part = onSpan(float(texelFetch(births, at(gl_VertexID / 3, textureSize(births, 0).x), 0).r));
+      part = onSpan(float(texelFetch(births, at(gl_VertexID / drawnCorners, textureSize(births, 0).x), 0).r));
     }
     int id = gl_VertexID % 3;
     corner = vec3(id == 0, id == 1, id == 2);
     emit(flight > 0.0 ? mix(own.xyz, texelFetch(landings, texel, 0).xyz, flight) : own.xyz, normal.xyz);
+  }
+`;
+
+/** A plane through tetrahedra, which lies where the section cuts and is itself not cut. */
+export const sliceVertex = /* glsl */ `
+  uniform float radius;
+  uniform vec4 section;
+  in vec3 corners;
+  ${OUTPUTS}
+  out vec3 corner;
+  ${EMIT}
+  void main() {
+    part = 0.0;
+    corner = corners;
+    // A little before the faces that end at the plane, or they would show through along its edges.
+    vec3 lift = 1e-3 * radius * section.xyz;
+    emit(position + lift, vec3(0.0));
+    place -= 2.0 * lift;
   }
 `;
 
@@ -102,7 +120,7 @@ export const fragment = /* glsl */ `
   uniform vec4 section;   // where dot(section.xyz, place) > section.w, nothing is
   uniform float pixelRatio;
   in vec3 seen;
-  in vec3 place;
+  centroid in vec3 place;
   in vec3 smoothNormal;
   in float part;
   in vec3 corner;

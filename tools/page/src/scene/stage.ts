@@ -46,7 +46,7 @@ export class Stage {
       this.onMove();
     });
     this.scene.add(this.left, this.right);
-    new ResizeObserver(() => this.draw()).observe(canvas.parentElement as Element);
+    new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
   /** Shows figures of this surface from now on. */
@@ -129,11 +129,12 @@ export class Stage {
   /** Draws now. */
   render(): void {
     const { renderer, camera, canvas } = this;
-    const { clientWidth: width, clientHeight: height } = canvas.parentElement as HTMLElement;
+    const { clientWidth: width, clientHeight: height } = canvas;
     if (width === 0 || height === 0) return;
     const ratio = this.pixelRatio;
     if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
-      renderer.setSize(width, height);
+      // The page's style says how large it is shown.
+      renderer.setSize(width, height, false);
     }
     const distance = camera.position.length();
     camera.near = Math.max(distance * NEAR_PART, distance - 1.5);

@@ -2,10 +2,13 @@
 
 import {
   BufferAttribute,
+  BufferGeometry,
   Color,
   DoubleSide,
+  FrontSide,
   GLSL3,
   type IUniform,
+  Mesh,
   ShaderMaterial,
   Sphere,
   Vector2,
@@ -14,8 +17,9 @@ import {
 } from "three";
 import type { Piece } from "../neph/arrival.ts";
 import type { NephFile } from "../neph/file.ts";
-import { Figure } from "./figure.ts";
-import { cornerVertex, fragment, indexedVertex, PAINTS } from "./shaders.ts";
+import { EDGE_STRENGTH, Figure } from "./figure.ts";
+import { cornerVertex, fragment, indexedVertex, PAINTS, sliceVertex } from "./shaders.ts";
+import { drawnCorners, fillFaces, type Slice } from "./tetrahedra.ts";
 import { countsTexture, fillQuads, quadsTexture } from "./textures.ts";
 
 const CLAY = new Color(0xb4c9bd);
@@ -48,12 +52,19 @@ export class Surface {
   readonly index: BufferAttribute;
   readonly attributes: Record<"position" | "normal" | "leaves" | "landing" | "deviation", BufferAttribute>;
   readonly uniforms: Record<string, IUniform>;
+  /** Corners of the index buffer that a slot takes. */
+  readonly drawnCorners: number;
+  /** The plane through tetrahedra where they are cut. */
+  readonly slice: Mesh;
   private readonly figures: Figure[] = [];
   private cornerAttribute: BufferAttribute | null = null;
+  private readonly sliceMaterial: ShaderMaterial;
 
   constructor(readonly file: NephFile) {
     const { nVertices, boundsMin, boundsMax } = file.head;
-    this.index = new BufferAttribute(file.indices, 1);
+    this.drawnCorners = drawnCorners(file.head.nCorners);
+    const isVolume = file.head.nCorners === 4;
+    this.index = new BufferAttribute(isVolume ? new Uint32Array(file.head.nSlots * this.drawnCorners) : file.indices, 1);
     this.attributes = {
       position: new BufferAttribute(file.positions, 3),
       normal: new BufferAttribute(new Float32Array(3 * nVertices), 3),
@@ -75,6 +86,8 @@ export class Surface {
       section: new Vector4(0, 0, 0, 1),
       pixelRatio: 1,
       flight: 0,
+      drawnCorners: this.drawnCorners,
+      radius: file.diagonal / 2,
       span: new Vector2(0, 1),
       positions: quadsTexture(1),
       normals: quadsTexture(1),
@@ -85,6 +98,8 @@ export class Surface {
     this.indexedMaterial = this.material(indexedVertex);
     this.cornerMaterial = this.material(cornerVertex);
     this.edgeMaterial = this.material(cornerVertex);
+    this.sliceMaterial = this.material(sliceVertex);
+    this.slice = this.sliceMesh();
     Object.assign(this.edgeMaterial, {
       transparent: true,
       depthWrite: false,
@@ -92,6 +107,18 @@ export class Surface {
       polygonOffsetFactor: -1,
       polygonOffsetUnits: -4,
     });
+  }
+
+  private sliceMesh(): Mesh {
+    const mesh = new Mesh(new BufferGeometry(), this.sliceMaterial);
+    mesh.frustumCulled = false;
+    mesh.visible = false;
+    mesh.onBeforeRender = () => {
+      const { paint, runColor, isFilled, edges } = this.uniforms;
+      [paint.value, runColor.value, isFilled.value, edges.value] = [PAINTS.run, CUT_INSIDE, true, EDGE_STRENGTH];
+      this.sliceMaterial.uniformsNeedUpdate = true;
+    };
+    return mesh;
   }
 
   /** A way to draw a level of this surface. */
@@ -104,9 +131,10 @@ export class Surface {
   /** Takes over what has arrived: that part of the buffers is uploaded, once. */
   arrived({ of, start, end }: Piece): void {
     if (of === "slots") {
-      const { nCorners } = this.file.head;
-      for (const attribute of [this.index, this.cornerAttribute]) {
-        attribute?.addUpdateRange(start * nCorners, (end - start) * nCorners);
+      const { index, file, drawnCorners } = this;
+      if (index.array !== file.indices) fillFaces(index.array as Uint32Array, file.indices, start, end);
+      for (const attribute of [index, this.cornerAttribute]) {
+        attribute?.addUpdateRange(start * drawnCorners, (end - start) * drawnCorners);
         if (attribute) attribute.needsUpdate = true;
       }
     } else {
@@ -144,7 +172,7 @@ export class Surface {
   /** Every corner of every slot: the index buffer as an attribute. Made, with the textures it needs, when it is first asked for. */
   corners(): BufferAttribute {
     if (!this.cornerAttribute) {
-      this.cornerAttribute = new BufferAttribute(this.file.indices, 1);
+      this.cornerAttribute = new BufferAttribute(this.index.array, 1);
       for (const name of ["positions", "normals", "landings"]) {
         this.uniforms[name].value.dispose();
         this.uniforms[name].value = quadsTexture(this.file.head.nVertices);
@@ -156,7 +184,19 @@ export class Surface {
     return this.cornerAttribute;
   }
 
+  /** Shows a plane through tetrahedra, or none. */
+  setSlice(slice: Slice | null): void {
+    this.slice.visible = slice !== null;
+    this.slice.geometry.dispose();
+    this.slice.geometry = new BufferGeometry();
+    this.slice.geometry.boundingSphere = this.sphere;
+    this.slice.geometry.setAttribute("position", new BufferAttribute(slice?.positions ?? new Float32Array(0), 3));
+    this.slice.geometry.setAttribute("corners", new BufferAttribute(slice?.corners ?? new Float32Array(0), 3));
+  }
+
   dispose(): void {
+    this.slice.geometry.dispose();
+    this.sliceMaterial.dispose();
     for (const figure of this.figures) figure.dispose();
     for (const { value } of Object.values(this.uniforms)) value?.dispose?.();
     this.indexedMaterial.dispose();
@@ -178,7 +218,9 @@ export class Surface {
   }
 
   private material(vertexShader: string): ShaderMaterial {
-    const material = new ShaderMaterial({ vertexShader, fragmentShader: fragment, glslVersion: GLSL3, side: DoubleSide });
+    // Between two tetrahedra lie two faces, of which one looks this way; nothing is seen from behind but through a section, which is filled.
+    const side = this.file.head.nCorners === 4 && vertexShader !== sliceVertex ? FrontSide : DoubleSide;
+    const material = new ShaderMaterial({ vertexShader, fragmentShader: fragment, glslVersion: GLSL3, side });
     // One set of uniforms for both ways of drawing.
     material.uniforms = this.uniforms;
     return material;

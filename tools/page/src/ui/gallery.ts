@@ -54,9 +54,12 @@ async function drawThumbnail(url: string, canvas: HTMLCanvasElement, stage: Stag
   const arrival = new Arrival(file, () => {});
   await arrival.readFirst();
   const surface = new Surface(file);
-  const [positions, indices] = [file.positions.slice(), file.cut(arrival.first)];
-  const { normals } = await hand.do({ kind: "normals", positions, indices }, [positions.buffer, indices.buffer]);
-  surface.setNormals(normals);
+  surface.arrived({ of: "slots", start: 0, end: file.head.nSlots });
+  if (file.head.nCorners === 3) {
+    const [positions, indices] = [file.positions.slice(), file.cut(arrival.first)];
+    const { normals } = await hand.do({ kind: "normals", positions, indices }, [positions.buffer, indices.buffer]);
+    surface.setNormals(normals);
+  }
   surface.setLook({ isSmooth: true, section: null, pixelRatio: 1 });
   const figure = surface.figure();
   figure.show({ level: arrival.first, paint: "plain", span: [0, 1], edges: "none", flight: 0 });

@@ -8,7 +8,13 @@ export function showFailure(failure: Failure, hasPicture: boolean): void {
   const message = element("message");
   message.classList.toggle("banner", hasPicture);
   element("message-title").textContent = failure.message;
-  element("message-advice").textContent = failure.advice;
+  // What stands in backticks is typed somewhere.
+  const parts = failure.advice.split("`").map((text, index) => {
+    const part = document.createElement(index % 2 === 1 ? "code" : "span");
+    part.textContent = text;
+    return part;
+  });
+  element("message-advice").replaceChildren(...parts);
   message.hidden = false;
   document.documentElement.dataset.phase = "failed";
 }

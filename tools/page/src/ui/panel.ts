@@ -145,6 +145,14 @@ export function showFacts(name: string, { file }: Viewing): void {
   const facts = [`${count(levels.length)} levels`, bytes(head.fileBytes), metadata.method];
   element("facts").textContent = facts.filter(Boolean).join(" · ");
   document.title = `${name} – nephrite`;
+  const simplices = head.nCorners === 4 ? "tetrahedra" : "triangles";
+  element("simplex-name").textContent = simplices;
+  element("budget-name").textContent = `${simplices} at most`;
+  element("curve-title").textContent = `Error against ${simplices}`;
+  // Both ask for the nearest points of a surface.
+  for (const control of [select("paint").querySelector<HTMLOptionElement>("option[value=deviation]"), input("morph")]) {
+    if (control) control.disabled = head.nCorners === 4;
+  }
   // What the words promise depends on the bound.
   element("error-name").textContent = metadata.bound === "certified" ? "proven error" : "stated error";
 }
@@ -161,7 +169,7 @@ export function showArrival({ file }: Viewing, isDone: boolean): void {
 /** Shows what the colours mean. */
 export function showLegend(viewing: Viewing, state: State): void {
   const legend = element("legend");
-  legend.hidden = state.paint === "plain";
+  legend.hidden = state.paint === "plain" || (viewing.isVolume && state.paint === "deviation");
   if (legend.hidden) return;
   const { levels, diagonal } = viewing.file;
   const length = (length: number) =>
