@@ -27,7 +27,8 @@ pub(crate) struct Curve {
 }
 
 /// Draws curves into one picture. Levels without error or without triangles have no place on logarithmic axes and are left out.
-pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
+/// `simplices` names what is counted.
+pub(crate) fn svg(title: &str, simplices: &str, curves: &[Curve]) -> String {
     let drawn = |curve: &Curve| -> Vec<(f64, f64)> {
         curve
             .points
@@ -47,7 +48,7 @@ pub(crate) fn svg(title: &str, curves: &[Curve]) -> String {
          <text x=\"{LEFT}\" y=\"28\" font-size=\"15\" font-weight=\"600\">{}</text>\n",
         escaped(title)
     );
-    draw_grid(&mut svg, &x, &y);
+    draw_grid(&mut svg, simplices, &x, &y);
     for (index, line) in lines.iter().enumerate() {
         draw_line(&mut svg, line, COLORS[index % COLORS.len()], (&x, &y));
     }
@@ -106,7 +107,7 @@ impl Axis {
     }
 }
 
-fn draw_grid(svg: &mut String, x: &Axis, y: &Axis) {
+fn draw_grid(svg: &mut String, simplices: &str, x: &Axis, y: &Axis) {
     for (value, is_decade) in x.lines() {
         let (at, color) = (x.at(value), if is_decade { "#ccc" } else { "#eee" });
         let _ = writeln!(svg, "<path d=\"M{at:.1} {TOP}V{BOTTOM}\" stroke=\"{color}\"/>");
@@ -136,7 +137,7 @@ fn draw_grid(svg: &mut String, x: &Axis, y: &Axis) {
     let _ = writeln!(
         svg,
         "<path d=\"M{LEFT} {TOP}V{BOTTOM}H{RIGHT}\" fill=\"none\" stroke=\"#333\"/>\n\
-         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">triangles</text>\n\
+         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{simplices}</text>\n\
          <text x=\"{RIGHT}\" y=\"28\" text-anchor=\"end\" fill=\"#666\">error in % of the diagonal</text>",
         HEIGHT - 14.0
     );
@@ -217,7 +218,7 @@ mod tests {
 
     #[test]
     fn levels_go_in_steps_from_the_coarsest() {
-        let picture = svg("t", &[curve(&[(1000.0, 0.0), (100.0, 0.1), (10.0, 1.0)])]);
+        let picture = svg("t", "triangles", &[curve(&[(1000.0, 0.0), (100.0, 0.1), (10.0, 1.0)])]);
         let line = picture.lines().find(|line| line.contains("stroke-width=\"2\"")).unwrap();
         assert_eq!(line.matches('H').count(), 1, "{line}");
         assert_eq!(picture.matches("<circle").count(), 2);
@@ -226,7 +227,7 @@ mod tests {
 
     #[test]
     fn several_curves_have_names() {
-        let picture = svg("t & t", &[curve(&[(9.0, 1.0)]), curve(&[(5.0, 2.0)])]);
+        let picture = svg("t & t", "triangles", &[curve(&[(9.0, 1.0)]), curve(&[(5.0, 2.0)])]);
         assert_eq!(picture.matches("a &lt; b").count(), 2);
         assert!(picture.contains("t &amp; t"));
     }
@@ -236,7 +237,7 @@ mod tests {
         for points in
             [&[][..], &[(0.0, 0.0)], &[(5.0, f64::MIN_POSITIVE), (4.0, f64::MAX)], &[(1.0, f64::INFINITY)]]
         {
-            let picture = svg("", &[curve(points)]);
+            let picture = svg("", "triangles", &[curve(points)]);
             assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
             assert!(picture.len() < 1 << 16);
         }

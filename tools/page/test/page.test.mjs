@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch } from "./browser.mjs";
-import { build, info, view } from "./fixtures.mjs";
+import { build, info, nephrite, view } from "./fixtures.mjs";
 import { difference, drawn, open, pixels, reach, settle, shown, type } from "./looking.mjs";
 
 let browser, server, path, facts;
@@ -263,6 +263,30 @@ function faint() {
     })
     .map((text) => text.textContent.trim().slice(0, 30));
 }
+
+test("a volume shows its boundary, and what a section cuts", async () => {
+  nephrite("generate", "ball", "--cells", "8", "-o", "volume.vtu");
+  nephrite("build", "volume.vtu", "-o", "volume.neph");
+  const { curve } = info("volume.neph");
+  const own = await view("volume.neph");
+  const { page, complaints, close } = await open(browser, `${own.url}#level=2`);
+  await reach(page, "complete");
+  assert.equal(await shown(page, "triangles"), curve[2].tetrahedra ?? curve[2].triangles);
+  assert.equal(await shown(page, "vertices"), curve[2].vertices);
+  assert.equal(await page.locator("#simplex-name").textContent(), "tetrahedra");
+  const boundary = await pixels(page);
+  assert.ok(drawn(boundary) > 0.05);
+  await page.locator("#section-axis").selectOption("z");
+  await page.waitForTimeout(500);
+  const cut = await pixels(page);
+  assert.ok(difference(boundary, cut) > 0.05, `${difference(boundary, cut)} differs`);
+  await page.locator("#paint").selectOption("birth");
+  await page.waitForTimeout(200);
+  assert.ok(difference(cut, await pixels(page)) > 0.0);
+  assert.deepEqual(complaints, []);
+  await close();
+  assert.equal(await own.stop(), 0);
+});
 
 test("several files are a gallery", async () => {
   const second = build("ball", "sphere");

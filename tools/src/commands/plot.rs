@@ -35,11 +35,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     files::check_output(&arguments.output, &inputs)?;
     let lods = inputs.iter().map(|path| files::open_lod(path)).collect::<Result<Vec<_>, _>>()?;
     let curves: Vec<_> = inputs.iter().zip(&lods).map(|(path, lod)| curve_of(path, lod)).collect();
+    let is_volume = |lod: &Lod| lod.n_corners() == 4;
+    let simplices = match (lods.iter().any(is_volume), lods.iter().all(is_volume)) {
+        (false, _) => "triangles",
+        (true, true) => "tetrahedra",
+        (true, false) => "simplices",
+    };
     let title = arguments.title.clone().unwrap_or_else(|| match &curves[..] {
-        [curve] => format!("{}: error against triangles", curve.name),
-        _ => "Error against triangles".to_owned(),
+        [curve] => format!("{}: error against {simplices}", curve.name),
+        _ => format!("Error against {simplices}"),
     });
-    let picture = curve::svg(&title, &curves);
+    let picture = curve::svg(&title, simplices, &curves);
     nephrite_formats::publish(&arguments.output, |out| out.write_all(picture.as_bytes()))
         .map_err(|source: std::io::Error| Failure::file(&arguments.output, source))?;
     let n_levels: usize = curves.iter().map(|curve| curve.points.len()).sum();
