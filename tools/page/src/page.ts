@@ -267,8 +267,21 @@ async function look(): Promise<void> {
   });
 }
 
+/** What goes wrong beside the reading of a file: births that do not come, a worker that fails, a graphics card that is reset. */
+function initRescue(): void {
+  const tell = (failure: Failure) => showFailure(failure, (viewing?.arrival.finest ?? null) !== null);
+  addEventListener("unhandledrejection", (event) => {
+    event.preventDefault();
+    tell(asFailure(event.reason));
+  });
+  element("canvas").addEventListener("webglcontextlost", () => {
+    tell(new Failure("The graphics card has dropped the picture", "Load the page again; the address holds what you saw."));
+  });
+}
+
 async function start(): Promise<void> {
   initMessage();
+  initRescue();
   if (!stage) return;
   initActions(stage);
   refresh();

@@ -104,6 +104,16 @@ test("a server that is gone, and a file that is gone, are told", async () => {
   await server.stop();
   await close();
 
+  // What is only read when it is wanted can fail later, and is told as well.
+  const whole = await serveFolder(exported("whole", path));
+  const { page: seen, close: closeSeen } = await open(browser, whole.url);
+  await reach(seen, "complete");
+  await whole.close();
+  await seen.locator("#paint").selectOption("birth");
+  await seen.getByRole("alert").waitFor();
+  assert.match(await seen.getByRole("alert").innerText(), /cannot be read/);
+  await closeSeen();
+
   const site = exported("stopping", path);
   const stopping = await serveFolder(site, { delay: 300 });
   const late = await open(browser, stopping.url);
