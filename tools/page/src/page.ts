@@ -112,7 +112,7 @@ async function show(listed: Listed): Promise<void> {
     await viewing.read(() => {
       refresh();
       stage.render();
-      performance.mark("first picture", { detail: { bytes: file.reader.bytesRead, level: mine?.seen } });
+      performance.mark("first picture", { detail: { bytes: file.reader.bytesRead, requests: file.reader.requests, level: mine?.seen } });
       dataset.phase = "first";
     });
     if (viewing !== mine) return;

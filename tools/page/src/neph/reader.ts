@@ -15,6 +15,8 @@ interface Identity {
 export class Reader {
   /** Bytes that have come over the network. */
   bytesRead = 0;
+  /** Requests for parts of the file. */
+  requests = 0;
   /** Length of the file, known once anything was read. */
   length: number | null = null;
   private identity: Identity | null = null;
@@ -34,6 +36,7 @@ export class Reader {
    */
   async read(start: number, end: number, mayEnd = false): Promise<Uint8Array<ArrayBuffer>> {
     if (this.whole) return this.whole.read(start, end, mayEnd);
+    this.requests++;
     const response = await fetch(this.url, { headers: { Range: `bytes=${start}-${end - 1}` }, cache: "no-store" }).catch(
       (error: Error) => {
         throw unreachable(`No answer from the server (${error.message})`);
