@@ -9,11 +9,12 @@
 //! 3. Corners in the wrong order are put right: where the volume is negative and the faces do not fit those of the neighbours,
 //!    or all are negative.
 //! 4. What is negative still is turned inside out by its vertices. It is righted by moving one vertex inside the mesh towards
-//!    the middle of its neighbours, if that makes all volumes around it positive, and kept otherwise.
+//!    the middle of its neighbours, if that makes all volumes around it positive. One whose vertices are all on the boundary is
+//!    dropped if two of its faces are, and the boundary goes over to its other two. Others are kept.
 //! 5. A tetrahedron of zero volume with four distinct corners is kept: its neighbours are joined through it.
 //! 6. Vertices that no tetrahedron uses are dropped.
 
-use super::tetrahedra::{FACES, FaceLists, boundary_faces};
+use super::tetrahedra::{FACES, FaceLists, boundary_faces, boundary_triangles};
 use nephrite_formats::{Attribute, TetrahedronMesh};
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +35,8 @@ pub struct TetrahedronRepairReport {
     pub tetrahedra_duplicate: usize,
     /// Tetrahedra whose corners were put in the right order.
     pub tetrahedra_turned: usize,
+    /// Tetrahedra of negative volume on the boundary, dropped.
+    pub tetrahedra_peeled: usize,
     /// Tetrahedra of zero volume, kept.
     pub tetrahedra_flat: usize,
     /// Tetrahedra of negative volume, kept.
@@ -50,6 +53,7 @@ pub fn repair_tetrahedra(input: &TetrahedronMesh) -> (TetrahedronMesh, Tetrahedr
     let mut mesh = keep_used(input, tetrahedra, &mut report);
     turn(&mut mesh, &mut report);
     right(&mut mesh, &mut report);
+    peel(&mut mesh, &mut report);
     report.tetrahedra_flat = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) == 0.0).count();
     report.tetrahedra_inverted = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) < 0.0).count();
     let lists = FaceLists::new(&mesh.tetrahedra, mesh.positions.len());
@@ -263,6 +267,31 @@ fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     }
 }
 
+/// Drops inverted tetrahedra with two faces on the boundary whose other two meet in an edge inside, by rule 4.
+fn peel(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
+    let is_inverted = |mesh: &TetrahedronMesh, i: usize| mesh.six_volumes(mesh.tetrahedra[i]) < 0.0;
+    let inverted: Vec<usize> = (0..mesh.tetrahedra.len()).filter(|&i| is_inverted(mesh, i)).collect();
+    if inverted.is_empty() {
+        return;
+    }
+    let bits = boundary_faces(&mesh.tetrahedra, mesh.positions.len());
+    let surface = boundary_triangles(&mesh.tetrahedra, mesh.positions.len());
+    let mut peeled: Vec<usize> = Vec::new();
+    for i in inverted {
+        let corners = mesh.tetrahedra[i];
+        let opposite: Vec<u32> =
+            (0..4).filter(|corner| bits[i] >> corner & 1 == 1).map(|c| corners[c]).collect();
+        let [a, b] = opposite[..] else { continue };
+        let is_inside = !surface.iter().any(|face| face.contains(&a) && face.contains(&b));
+        let is_apart = !peeled.iter().any(|&j| corners.iter().any(|v| mesh.tetrahedra[j].contains(v)));
+        if is_inside && is_apart {
+            peeled.push(i);
+        }
+    }
+    peeled.iter().rev().for_each(|&i| _ = mesh.tetrahedra.remove(i));
+    report.tetrahedra_peeled = peeled.len();
+}
+
 /// Moves a vertex as little as makes every tetrahedron around it positive, or not at all.
 fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32) -> bool {
     const PARTS: f32 = 16.0;
@@ -342,5 +371,20 @@ mod tests {
         let (righted, report) = repair_tetrahedra(&around([0.25, 0.25, -0.01]));
         assert_eq!((report.vertices_moved, report.tetrahedra_inverted), (1, 0));
         assert!((righted.volume() - 1.0 / 6.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn an_inverted_tetrahedron_on_the_boundary_is_peeled_off() {
+        // Four tetrahedra around the edge 0 1, the first of them turned inside out by its outer vertex.
+        let ring = |angle: f32| [angle.cos(), angle.sin(), 0.5];
+        let mut points = vec![[0.0; 3], [0.0, 0.0, 1.0]];
+        points.extend([0.0, 1.0, 2.0, 3.0, 4.0].map(ring));
+        let fan = [[0, 1, 2, 3], [0, 1, 3, 4], [0, 1, 4, 5], [0, 1, 5, 6]];
+        let (_, report) = repair_tetrahedra(&mesh(&points, &fan));
+        assert_eq!(report, TetrahedronRepairReport::default());
+        points[2] = ring(1.2);
+        let (peeled, report) = repair_tetrahedra(&mesh(&points, &fan));
+        assert_eq!(report.tetrahedra_peeled + report.tetrahedra_inverted, 1);
+        assert_eq!(peeled.tetrahedra.len(), 4 - report.tetrahedra_peeled);
     }
 }

@@ -14,6 +14,6 @@ pub struct FusionOptions {
 
 impl Default for FusionOptions {
     fn default() -> Self {
-        Self { field_weight: 1.0, volume_loss: 0.001 }
+        Self { field_weight: 4.0, volume_loss: 0.001 }
     }
 }

@@ -30,7 +30,10 @@ pub(crate) fn run(
     go_on: GoOn<'_>,
 ) -> Result<Fused, Stopped> {
     let mut state = State::new(mesh, options, cos_feature_angle, max_error);
+    let max_error = state.max_error;
+    state.max_error = max_error.min(state.fine_error);
     fuse_tetrahedra(&mut state, go_on)?;
+    state.max_error = max_error;
     let by_tetrahedra = [state.n_fusions, state.mesh.n_alive()];
     fuse_edges(&mut state, go_on)?;
     Ok(state.finish(mesh, by_tetrahedra))
@@ -51,38 +54,63 @@ fn fuse_tetrahedra(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
     #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
     let n_slots = state.mesh.n_slots() as u32;
     let mut candidates = vec![Candidate::default(); n_slots as usize];
-    let cost =
-        |slot: u32| state.mesh.get(slot).map(|corners| (slot, state.cost(&Prey::tetrahedron(corners))));
+    let cost = |slot: u32| {
+        let corners = state.mesh.get(slot)?;
+        // What is inverted goes first: a fusion leaves nothing so.
+        let is_right = state.mesh.six_volumes(slot) > 0.0;
+        Some((slot, if is_right { state.cost(&Prey::tetrahedron(corners)) } else { 0.0 }))
+    };
     let costs: Vec<(u32, f64)> = (0..n_slots).into_par_iter().filter_map(cost).collect();
     let mut queue = Queue::new(costs.into_iter());
-    loop {
-        let before = state.n_fusions;
-        while let Some(slot) = queue.pop() {
-            let Some(corners) = state.mesh.get(slot) else { continue };
-            let prey = Prey::tetrahedron(corners);
-            let candidate = &mut candidates[slot as usize];
-            if std::mem::take(&mut candidate.is_stale) {
-                let cost = state.cost(&prey).max(candidate.cost.into());
-                if !queue.is_first(slot, cost) {
-                    queue.push(slot, cost);
-                    continue;
-                }
-            }
-            let Some(accepted) = state.try_fusion(&prey) else {
-                candidate.refused = state.now();
-                continue;
-            };
-            if comes_later(candidate, accepted.cost) && !queue.is_first(slot, accepted.cost) {
-                queue.push(slot, accepted.cost);
+    let mut luck = Luck::default();
+    while let Some(slot) = queue.pop() {
+        let Some(corners) = state.mesh.get(slot) else { continue };
+        let prey = Prey::tetrahedron(corners);
+        let candidate = &mut candidates[slot as usize];
+        if std::mem::take(&mut candidate.is_stale) {
+            let cost = state.cost(&prey).max(candidate.cost.into());
+            if !queue.is_first(slot, cost) {
+                queue.push(slot, cost);
                 continue;
             }
-            state.fuse(&prey, &accepted, |slot| candidates[slot as usize].is_stale = true);
-            observe(state, go_on)?;
         }
-        // What was refused may do in the surroundings of a later time.
-        if state.n_fusions == before || !queue_changed_tetrahedra(state, &candidates, &mut queue) {
+        let accepted = state.try_fusion(&prey);
+        if luck.has_left(accepted.is_some()) {
             return Ok(());
         }
+        let Some(accepted) = accepted else { continue };
+        if comes_later(candidate, accepted.cost) && !queue.is_first(slot, accepted.cost) {
+            queue.push(slot, accepted.cost);
+            continue;
+        }
+        state.fuse(&prey, &accepted, |slot| candidates[slot as usize].is_stale = true);
+        observe(state, go_on)?;
+    }
+    Ok(())
+}
+
+/// How often tetrahedra could be fused lately. Where nearly none can, edges take away more for the same time.
+#[derive(Default)]
+struct Luck {
+    n_tried: u32,
+    n_held: u32,
+}
+
+impl Luck {
+    /// Tries in one count.
+    const WINDOW: u32 = 4096;
+    /// Fewer that hold than this part of them are not worth it.
+    const LEAST_PART: u32 = 64;
+
+    fn has_left(&mut self, holds: bool) -> bool {
+        self.n_tried += 1;
+        self.n_held += u32::from(holds);
+        if self.n_tried < Self::WINDOW {
+            return false;
+        }
+        let is_rare = self.n_held * Self::LEAST_PART < self.n_tried;
+        *self = Self::default();
+        is_rare
     }
 }
 
@@ -93,20 +121,6 @@ fn comes_later(candidate: &mut Candidate, cost: f64) -> bool {
     let is_news = cost > candidate.cost;
     candidate.cost = candidate.cost.max(cost);
     is_news
-}
-
-fn queue_changed_tetrahedra(state: &State, candidates: &[Candidate], queue: &mut Queue) -> bool {
-    let before = state.now();
-    let mut is_any = false;
-    for (slot, corners) in state.mesh.iter() {
-        let candidate = candidates[slot as usize];
-        let touched = corners.iter().map(|&v| state.touched[v as usize]).max().unwrap_or(0);
-        if touched > candidate.refused && touched <= before {
-            queue.push(slot, state.cost(&Prey::tetrahedron(corners)).max(candidate.cost.into()));
-            is_any = true;
-        }
-    }
-    is_any
 }
 
 /// Told now and then how far it has come.

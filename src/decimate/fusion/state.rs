@@ -16,6 +16,9 @@ use nephrite_formats::TetrahedronMesh;
 /// Largest distance that rounding a point to `f32` and its coordinates' products may make, in parts of the extent.
 const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 
+/// [`State::fine_error`] in parts of the bounding box diagonal.
+const FINE_ERROR: f64 = 0.0005;
+
 /// The mesh in the middle of its fusion.
 pub(super) struct State {
     pub mesh: Tetrahedra,
@@ -35,6 +38,8 @@ pub(super) struct State {
     /// How far a point may be outside by rounding alone.
     pub slack: f64,
     pub max_error: f64,
+    /// The error that fusions of tetrahedra may bring to the boundary; what is coarser is left to edges, which move less of it.
+    pub fine_error: f64,
     quadric_distances: Vec<f64>,
     field_deviations: Vec<Vec<f64>>,
 }
@@ -75,6 +80,7 @@ impl State {
             slack: SLACK * max(low.map(f64::abs), high.map(f64::abs)).into_iter().fold(0.0, f64::max),
             six_volumes_left: options.volume_loss * six_volumes.abs(),
             max_error: max_error.unwrap_or(f64::INFINITY),
+            fine_error: FINE_ERROR * length(sub(high, low)),
             mesh: tetrahedra,
             metric,
             fields,
