@@ -7,6 +7,9 @@ use crate::decimate::jade::JadeOptions;
 use crate::decimate::jade::decimation::{Decimation, Workers};
 use crate::decimate::jade::rounds::run;
 use crate::decimate::jade::thresholds::Thresholds;
+use crate::decimate::progressive::complex::Complex;
+use crate::decimate::progressive::wedges::Wedges;
+use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
 use crate::mesh::{RepairReport, Repaired, Seams, Surface, repair};
@@ -23,6 +26,8 @@ pub enum Method {
     Jade,
     /// Fusion of tetrahedra; of volumes only, see [`build_volume`](crate::build_volume()).
     Fusion,
+    /// Edge collapses and vertex splits that change the topology where they must, down to no triangle.
+    Progressive,
 }
 
 /// What the error of a level means.
@@ -53,6 +58,8 @@ pub struct BuildOptions {
     pub feature_angle_degrees: f64,
     /// Constants of JADE.
     pub jade: JadeOptions,
+    /// How far the progressive decimator goes.
+    pub progressive: ProgressiveOptions,
 }
 
 impl Default for BuildOptions {
@@ -63,6 +70,7 @@ impl Default for BuildOptions {
             max_error: None,
             feature_angle_degrees: 60.0,
             jade: JadeOptions::default(),
+            progressive: ProgressiveOptions::default(),
         }
     }
 }
@@ -97,12 +105,25 @@ pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
 /// What a build leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Build {
-    /// The input after repair: what the history's indices refer to.
+    /// The input after repair, and behind its vertices those that were born later: what the history's indices refer to.
     pub mesh: TriangleMesh,
     /// Every triangle that ever lived.
     pub history: History,
     /// What the repair did.
     pub repairs: RepairReport,
+    /// What the progressive decimator tells beside the history.
+    pub passage: Option<Passage>,
+}
+
+impl Build {
+    /// Levels with at least this many triangles carry a certified error, those below an estimate. Nothing where the bound that was
+    /// asked for holds for all of them.
+    pub fn n_certified_triangles(&self) -> Option<usize> {
+        let n_steps = self.passage.as_ref()?.n_certified_steps;
+        let last = n_steps.checked_sub(1)?;
+        let lifetimes = self.history.birth.iter().zip(&self.history.death);
+        Some(lifetimes.filter(|&(&birth, &death)| birth <= last && last < death).count())
+    }
 }
 
 /// Why a build failed.
@@ -158,6 +179,16 @@ pub enum BuildError {
         /// What it is.
         found: f64,
     },
+    /// The decimator cannot state what was asked for.
+    #[error("the {method} decimator states {expected}, not a {found} error")]
+    BoundOfMethod {
+        /// The decimator.
+        method: &'static str,
+        /// What it can state.
+        expected: &'static str,
+        /// What was asked for.
+        found: &'static str,
+    },
     /// The observer asked to stop.
     #[error("interrupted")]
     Interrupted,
@@ -177,9 +208,6 @@ pub fn build(
     observer: Observer<'_>,
 ) -> Result<Build, BuildError> {
     check_options(options)?;
-    if options.method == Method::Fusion {
-        return Err(BuildError::NotAVolume);
-    }
     check_mesh(mesh)?;
     let n_triangles_in = mesh.triangles.len();
     let max_error = options.max_error;
@@ -193,11 +221,73 @@ pub fn build(
     if mesh.triangles.is_empty() {
         return Err(BuildError::NoTriangles { n_triangles: n_triangles_in });
     }
-    let go_on = |decimation: &Decimation| {
-        tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
+    let points_and_looks = points.zip(looks);
+    match options.method {
+        Method::Jade => {
+            let go_on = |decimation: &Decimation| {
+                tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
+            };
+            let history = decimate(&mesh, points_and_looks, options, &go_on)?;
+            Ok(Build { mesh, history, repairs, passage: None })
+        }
+        Method::Fusion => Err(BuildError::NotAVolume),
+        Method::Progressive => {
+            let go_on = |decimation: &progressive::Decimation| {
+                let error = decimation.journal.recorder.error();
+                tell(Phase::Decimate, decimation.complex.n_triangles(), error)
+            };
+            let (history, passage) = decimate_progressively(&mesh, points_and_looks, options, &go_on)?;
+            Ok(Build {
+                mesh: with_copies(mesh, &passage.trace.copies),
+                history,
+                repairs,
+                passage: Some(passage),
+            })
+        }
+    }
+}
+
+fn decimate_progressively(
+    mesh: &TriangleMesh,
+    points_and_looks: Option<(Vec<u32>, Vec<u32>)>,
+    options: &BuildOptions,
+    go_on: &dyn Fn(&progressive::Decimation) -> bool,
+) -> Result<(History, Passage), BuildError> {
+    let triangles = mesh.triangles.clone();
+    let (triangles, wedges) = match points_and_looks {
+        None => (triangles, None),
+        Some((points, looks)) => {
+            let over_points = triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
+            (over_points, Some(Wedges::new(triangles, looks)))
+        }
     };
-    let history = decimate(&mesh, points.zip(looks), options, &go_on)?;
-    Ok(Build { mesh, history, repairs })
+    let settings = progressive::Settings {
+        cos_feature_angle: options.feature_angle_degrees.to_radians().cos(),
+        max_error: options.max_error.unwrap_or(f64::INFINITY),
+        rounding: mesh.rounding,
+        proves: options.bound == Bound::Certified,
+        options: options.progressive,
+    };
+    let complex = Complex::new(mesh.positions.clone(), triangles);
+    let n_vertices = u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX);
+    let mut decimation = progressive::Decimation::new(complex, wedges, n_vertices, settings);
+    if !decimation.run(go_on) {
+        return Err(BuildError::Interrupted);
+    }
+    Ok(decimation.finish())
+}
+
+/// The mesh with one vertex more for each of `copies`, which name the vertex that they are like.
+fn with_copies(mut mesh: TriangleMesh, copies: &[u32]) -> TriangleMesh {
+    for &copied in copies {
+        let copied = copied as usize;
+        mesh.positions.push(mesh.positions[copied]);
+        for attribute in &mut mesh.attributes {
+            let stride = attribute.stride_bytes();
+            attribute.bytes.extend_from_within(copied * stride..(copied + 1) * stride);
+        }
+    }
+    mesh
 }
 
 fn decimate(
@@ -269,8 +359,16 @@ fn check_options(options: &BuildOptions) -> Result<(), BuildError> {
         max_error,
         feature_angle_degrees: angle,
         jade: JadeOptions { k, c1, c2, aspect_loss },
+        progressive: ProgressiveOptions { reduction, .. },
         ..
     } = *options;
+    if let (Method::Progressive, Bound::Joint | Bound::Removed) = (options.method, options.bound) {
+        let found = if options.bound == Bound::Joint { "joint" } else { "removed" };
+        let expected = "a certified or an accumulated error";
+        return Err(BuildError::BoundOfMethod { method: "progressive", expected, found });
+    }
+    let reduction = reduction.unwrap_or(1.0);
+    check("reduction", "from 0 to 1", reduction, (0.0..=1.0).contains(&reduction))?;
     if let Some(error) = max_error {
         check("max error", "finite and above zero", error, error.is_finite() && error > 0.0)?;
     }

@@ -20,6 +20,7 @@ fn file(mesh: &TriangleMesh, history: &History, bound: &str) -> Lod {
         n_simplices_in: mesh.triangles.len() as u64,
         options: serde_json::Value::Null,
         repairs: serde_json::Value::Null,
+        ..Provenance::default()
     };
     let mut bytes = Cursor::new(vec![]);
     write_to(

@@ -23,6 +23,11 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         self.history.errors.push(error.max(last));
     }
 
+    /// Steps so far, the number of the current one.
+    pub fn n_steps(&self) -> u32 {
+        self.now()
+    }
+
     /// Error of the current step.
     pub fn error(&self) -> f64 {
         self.history.errors.last().copied().unwrap_or_default()

@@ -76,6 +76,12 @@ impl Stars {
         self.lists[v as usize].len = 0;
     }
 
+    /// Adds a vertex with an empty star and gives its index.
+    pub fn add_vertex(&mut self) -> u32 {
+        self.lists.push(List::default());
+        index(self.lists.len() - 1)
+    }
+
     /// Closes gaps once they make up half of the pool. O(n) when it works, O(1) otherwise.
     pub fn compact(&mut self, n_triangles_alive: usize) {
         if self.pool.len() < 12 * n_triangles_alive + 1024 {

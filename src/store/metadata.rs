@@ -20,6 +20,11 @@ pub struct Provenance {
     pub options: serde_json::Value,
     /// What was repaired before the build.
     pub repairs: serde_json::Value,
+    /// Levels with at least this many simplices carry a certified error, those below an estimate; nothing where `bound` holds for
+    /// all of them.
+    pub certified_simplices: Option<u64>,
+    /// Changes of topology on the way: how many of each kind, and the first ones with their errors.
+    pub topology: serde_json::Value,
 }
 
 /// The metadata section.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 use nephrite::decimate::jade::JadeOptions;
+use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
 use nephrite::{Bound, Build, BuildError, BuildOptions, Method, TriangleMesh};
 use nephrite_formats::ReadReport;
@@ -66,6 +67,9 @@ pub(crate) struct Arguments {
 
     #[command(flatten)]
     fusion: FusionArguments,
+
+    #[command(flatten)]
+    progressive: ProgressiveArguments,
 }
 
 /// Constants of the JADE decimator, by their names in the paper.
@@ -94,6 +98,20 @@ struct JadeArguments {
     aspect_loss: f64,
 }
 
+/// How far the progressive decimator goes.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options of the progressive decimator")]
+struct ProgressiveArguments {
+    /// Part of the triangles to remove, from 0 to 1 (all of them, which is what it does without this)
+    #[arg(long, value_name = "R", value_parser = part)]
+    reduction: Option<f64>,
+
+    /// Split along feature edges, at corners and at non-manifold vertices before anything else: better for large flat faces with
+    /// thin sides between them
+    #[arg(long)]
+    pre_split: bool,
+}
+
 /// The decimators, as they are typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -101,6 +119,8 @@ enum MethodName {
     Jade,
     /// Fusion of tetrahedra, for volumes
     Fusion,
+    /// Edge collapses and vertex splits that change the topology where they must: any reduction, down to no triangle
+    Progressive,
 }
 
 /// The bounds, as they are typed.
@@ -121,6 +141,7 @@ impl From<MethodName> for Method {
         match name {
             MethodName::Jade => Self::Jade,
             MethodName::Fusion => Self::Fusion,
+            MethodName::Progressive => Self::Progressive,
         }
     }
 }
@@ -167,6 +188,7 @@ fn positive_length(text: &str) -> Result<Length, LengthError> {
 impl Arguments {
     fn options(&self, bounding_diagonal: f64) -> BuildOptions {
         let JadeArguments { k, c1, c2, aspect_loss } = self.jade;
+        let ProgressiveArguments { reduction, pre_split } = self.progressive;
         BuildOptions {
             method: self.method.into(),
             bound: self.bound.into(),
@@ -175,6 +197,7 @@ impl Arguments {
                 .feature_angle
                 .unwrap_or(BuildOptions::default().feature_angle_degrees),
             jade: JadeOptions { k, c1, c2, aspect_loss },
+            progressive: ProgressiveOptions { reduction, pre_split },
         }
     }
 }
@@ -242,6 +265,8 @@ fn write(
         n_simplices_in: mesh.triangles.len() as u64,
         options: json!(options),
         repairs: json!(build.repairs),
+        certified_simplices: build.n_certified_triangles().map(|n| n as u64),
+        topology: build.passage.as_ref().map_or(Value::Null, |passage| json!(passage.events)),
     };
     let stored = arguments.stored();
     store::write(&arguments.output, &build.mesh, &build.history, &provenance, &stored)
@@ -277,6 +302,8 @@ impl Outcome {
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
             "repairs": self.build.repairs,
+            "certified_triangles": self.build.n_certified_triangles(),
+            "operations": self.build.passage.as_ref().map(|passage| &passage.counts),
         })
     }
 

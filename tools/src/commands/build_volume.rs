@@ -86,6 +86,7 @@ impl Request<'_> {
             n_simplices_in: n_tetrahedra as u64,
             options: json!(options),
             repairs: json!(build.repairs),
+            ..Provenance::default()
         };
         let stored = store::write(self.output, &build.mesh, &build.history, &provenance, &self.stored)
             .map_err(|source| Failure::file(self.output, source))?;

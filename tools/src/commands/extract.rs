@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use nephrite::query::QueryError;
+use nephrite::query::{INFLECTION_RATIO, QueryError};
 use nephrite::volume::Plane;
 use nephrite::{Cut, Lod, TetrahedronMesh, TriangleMesh};
 use nephrite_formats::MeshError;
@@ -49,9 +49,18 @@ struct Selector {
     #[arg(long, value_name = "N", visible_alias = "tetrahedra")]
     triangles: Option<u32>,
 
+    /// The level before a leap of the error whose reduction is nearest to this one, from 0 (the input) to 1 (nothing)
+    #[arg(long, value_name = "R", value_parser = reduction)]
+    inflection: Option<f64>,
+
     /// This level: 0 is the input
     #[arg(long, value_name = "L")]
     level: Option<u32>,
+}
+
+fn reduction(text: &str) -> Result<f64, &'static str> {
+    let value = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
+    value.ok_or("expected a number from 0 to 1")
 }
 
 impl Selector {
@@ -73,6 +82,9 @@ impl Selector {
                 report::note(&format!("{}: the coarsest level has {found} triangles still", file.display()));
             }
             return Ok(cut);
+        }
+        if let Some(reduction) = self.inflection {
+            return Ok(lod.at_reduction_near_inflection(reduction, INFLECTION_RATIO));
         }
         let level = self.level.unwrap_or(0);
         if level < lod.n_levels() {

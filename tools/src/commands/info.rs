@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use nephrite::Lod;
+use nephrite::query::INFLECTION_RATIO;
 use nephrite::store::{Metadata, Provenance};
 use serde_json::{Value, json};
 
@@ -53,6 +54,9 @@ fn json(lod: &Lod, metadata: &Metadata) -> Value {
         "options": metadata.provenance.options,
         "repairs": metadata.provenance.repairs,
         "deviations": deviations(lod),
+        "certified_triangles": metadata.provenance.certified_simplices,
+        "topology": metadata.provenance.topology,
+        "inflections": inflections(lod),
         "curve": curve,
     })
 }
@@ -65,6 +69,10 @@ fn deviations(lod: &Lod) -> Vec<Value> {
 
 fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
     let Provenance { method, bound, n_vertices_in, n_simplices_in, repairs, .. } = &metadata.provenance;
+    let bound = match metadata.provenance.certified_simplices {
+        Some(n) => format!("{bound} down to {} triangles, then accumulated", figures::count(n)),
+        None => bound.clone(),
+    };
     let attributes: Vec<_> = lod.attributes().map(|view| view.name.to_owned()).collect();
     let list = figures::list(&[
         (
@@ -78,6 +86,8 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         ("attributes", if attributes.is_empty() { "none".to_owned() } else { attributes.join(", ") }),
         ("repaired", figures::tally(repairs)),
         ("diagonal", figures::significant(lod.bounding_diagonal())),
+        ("topology", topology(&metadata.provenance.topology)),
+        ("error leaps", inflection_list(lod)),
         ("built by", format!("{}, {method}, bound {bound}", metadata.generator)),
         (
             "stored",
@@ -90,6 +100,35 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         ),
     ]);
     format!("{}\n{list}\n{}", arguments.file.display(), curve(lod))
+}
+
+/// Levels before which the error leaps.
+fn inflections(lod: &Lod) -> Vec<Value> {
+    let curve: Vec<_> = lod.curve().collect();
+    let levels = lod.inflections(INFLECTION_RATIO);
+    levels.map(|level| json!({ "level": level, "point": curve[level as usize] })).collect()
+}
+
+/// The same in words.
+fn inflection_list(lod: &Lod) -> String {
+    let counts: Vec<u32> = lod.curve().map(|point| point.triangles).collect();
+    let levels = lod.inflections(INFLECTION_RATIO);
+    let words =
+        levels.map(|level| format!("{} ({} triangles)", level, figures::count(counts[level as usize])));
+    let words: Vec<String> = words.take(SHOWN_LEVELS).collect();
+    if words.is_empty() { "none".to_owned() } else { format!("after level {}", words.join(", ")) }
+}
+
+/// Changes of topology, each kind with its number and the error at which it happened first.
+fn topology(log: &Value) -> String {
+    let tallies = log["tallies"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let words = tallies.iter().filter_map(|tally| {
+        let kind = tally["kind"].as_str()?.replace('_', " ");
+        let error = figures::significant(tally["first"]["error"].as_f64()?);
+        Some(format!("{kind} {} times, first at error {error}", tally["count"]))
+    });
+    let words: Vec<String> = words.collect();
+    if words.is_empty() { "kept".to_owned() } else { words.join("; ") }
 }
 
 /// The error-triangle curve, thinned out evenly where it is long.

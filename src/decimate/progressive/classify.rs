@@ -1,0 +1,159 @@
+//! Vertex classification (section 4.2): seven classes from the topology of the star, its feature edges and its areas.
+//!
+//! A corner, as in the paper, is never collapsed as it stands: it is split along its feature edges when nothing else can be
+//! done. Seams of attributes count as feature edges.
+
+use super::complex::Complex;
+use super::error::{AveragePlane, spoke};
+use super::ring::{Ring, Shape};
+use super::wedges::Wedges;
+use crate::geometry::vector::{Vector, dot};
+
+/// The classes; the first is for a vertex that has gone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Class {
+    /// No triangle.
+    #[default]
+    Empty,
+    /// Surrounded by triangles, with at most one feature edge.
+    Simple,
+    /// On the boundary, without feature edges.
+    Boundary,
+    /// Neither a full nor a half cycle of triangles, or an edge with more than two of them.
+    NonManifold,
+    /// Three or more feature edges, or one on the boundary.
+    Corner,
+    /// On a feature line that passes through, between these two neighbours.
+    InteriorEdge([usize; 2]),
+    /// At the end of a crack: on the boundary between two neighbours at one place.
+    CrackTip,
+    /// A simple or boundary vertex with a triangle of zero area.
+    Degenerate,
+}
+
+impl Class {
+    /// Whether a collapse may be tried.
+    pub fn may_collapse(self) -> bool {
+        !matches!(self, Self::Empty | Self::NonManifold | Self::Corner)
+    }
+}
+
+/// The surroundings of a vertex in space. Reused from vertex to vertex.
+#[derive(Clone, Debug, Default)]
+pub struct Geometry {
+    /// Position of the vertex.
+    pub apex: Vector,
+    /// Positions of the neighbours, parallel to the ring's vertices.
+    pub points: Vec<Vector>,
+    /// Average plane of the star.
+    pub plane: AveragePlane,
+    /// Area of the star.
+    pub area: f64,
+    /// Neighbours at feature edges.
+    pub features: Vec<usize>,
+    /// Whether some triangle has no area.
+    pub is_degenerate: bool,
+    /// Normal of each triangle and its length.
+    normals: Vec<(Vector, f64)>,
+}
+
+impl Geometry {
+    /// Distance between the vertex and the average plane.
+    pub fn distance_to_plane(&self) -> f64 {
+        self.plane.distance()
+    }
+
+    /// Takes the ring's surroundings. O(valence).
+    pub fn gather(
+        &mut self,
+        complex: &Complex,
+        wedges: Option<&Wedges>,
+        ring: &Ring,
+        cos_feature_angle: f64,
+    ) {
+        self.apex = complex.point(ring.center);
+        self.plane = AveragePlane::default();
+        self.features.clear();
+        self.normals.clear();
+        if ring.shape == Shape::NonManifold {
+            self.points.clear();
+            self.add_loose_triangles(complex, ring);
+        } else {
+            ring.positions(complex, &mut self.points);
+            for i in 0..ring.len() {
+                let ends = [i, ring.next(i)].map(|i| spoke(self.apex, self.points[i]));
+                self.normals.push(self.plane.add(ends[0], ends[1]));
+            }
+            self.find_features(complex, wedges, ring, cos_feature_angle);
+        }
+        self.area = 0.5 * self.plane.weight;
+        self.is_degenerate = self.normals.iter().any(|&(_, size)| size <= 0.0);
+    }
+
+    fn add_loose_triangles(&mut self, complex: &Complex, ring: &Ring) {
+        for &slot in &ring.slots {
+            let [a, b, c] = complex.corners(slot);
+            let (from, to) = if a == ring.center {
+                (b, c)
+            } else if b == ring.center {
+                (c, a)
+            } else {
+                (a, b)
+            };
+            let ends = [from, to].map(|v| spoke(self.apex, complex.point(v)));
+            self.normals.push(self.plane.add(ends[0], ends[1]));
+        }
+    }
+
+    /// Edges where the normals turn by more than the feature angle, or where a seam runs.
+    fn find_features(
+        &mut self,
+        complex: &Complex,
+        wedges: Option<&Wedges>,
+        ring: &Ring,
+        cos_feature_angle: f64,
+    ) {
+        let n = ring.len();
+        let first = usize::from(!ring.is_cycle());
+        for after in first..n {
+            let before = if after == 0 { n - 1 } else { after - 1 };
+            let ((a, a_size), (b, b_size)) = (self.normals[before], self.normals[after]);
+            let is_seam = || {
+                let slots = [ring.slots[before], ring.slots[after]];
+                let edge = [ring.center, ring.vertices[after]];
+                wedges.is_some_and(|wedges| wedges.differ(complex, slots, edge))
+            };
+            if dot(a, b) < cos_feature_angle * (a_size * b_size) || is_seam() {
+                self.features.push(after);
+            }
+        }
+    }
+}
+
+/// Classifies the vertex of `ring`. O(1) after [`Geometry::gather`].
+pub fn classify(complex: &Complex, ring: &Ring, geometry: &Geometry) -> Class {
+    let n_features = geometry.features.len();
+    match ring.shape {
+        Shape::Empty => Class::Empty,
+        Shape::NonManifold => Class::NonManifold,
+        Shape::Cycle => match geometry.features[..] {
+            [] | [_] if geometry.is_degenerate => Class::Degenerate,
+            [] | [_] => Class::Simple,
+            // The two sides of one triangle fold over both edges and yet hold nothing in place.
+            [_, _] if ring.len() == 2 => Class::Simple,
+            [i, j] => Class::InteriorEdge([i, j]),
+            _ => Class::Corner,
+        },
+        Shape::Chain if n_features > 0 => Class::Corner,
+        Shape::Chain => {
+            let ends = [ring.vertices[0], ring.vertices[ring.vertices.len() - 1]];
+            if ring.len() >= 3 && complex.coincide(ends[0], ends[1]) {
+                Class::CrackTip
+            } else if geometry.is_degenerate {
+                Class::Degenerate
+            } else {
+                Class::Boundary
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Error measures (section 4.3): distance to the average plane, to a line, and the edge length of a lone triangle.
+//!
+//! The error of a vertex is a local measure plus what deletions around it have left there (equation 5). The local measure
+//! only orders the queue. What is left behind is the *actual* distance between the star and the triangles that took its
+//! place, so the largest sum bounds the error of the mesh in the paper's sense: an estimate, no proof.
+
+use super::classify::{Class, Geometry};
+use super::ring::Ring;
+use crate::bound::accumulated::round_up;
+use crate::geometry::distance::{point_segment_distance_sq, point_triangle_distance_sq};
+use crate::geometry::vector::{Vector, cross, dot, length, length_sq, midpoint, sub};
+
+/// Stars of at most this many triangles are compared with their fans edge by edge.
+pub const FEW: usize = 24;
+
+/// Distance of the vertex to what its deletion would leave, by its class. O(1) after [`Geometry::gather`].
+pub fn local_error(class: Class, ring: &Ring, geometry: &Geometry) -> f64 {
+    let to_line = |i: usize, j: usize| {
+        point_segment_distance_sq(geometry.apex, [geometry.points[i], geometry.points[j]]).sqrt()
+    };
+    match class {
+        Class::Empty => 0.0,
+        _ if vanishes(ring) => geometry.area.sqrt(),
+        Class::Boundary => to_line(0, geometry.points.len() - 1),
+        Class::InteriorEdge([i, j]) => to_line(i, j),
+        Class::Simple | Class::CrackTip | Class::Degenerate | Class::Corner | Class::NonManifold => {
+            geometry.distance_to_plane()
+        }
+    }
+}
+
+/// Whether a collapse leaves nothing of the star: a lone triangle, or the two sides of one.
+pub fn vanishes(ring: &Ring) -> bool {
+    ring.len() == 1 || (ring.len() == 2 && ring.is_cycle())
+}
+
+/// Distance between the star and the triangles that the collapse into neighbour `into` leaves: of the deleted vertex from the
+/// new triangles, as in the paper; of the middle of each new edge from the old ones, which tells of saddles that the vertex
+/// lies in the middle of; and on the boundary, of the vertex from the new boundary. O(valence^2), for the few triangles that
+/// most stars have; O(valence) for others, where new edges are left out.
+pub fn actual_error(ring: &Ring, geometry: &Geometry, into: usize) -> f64 {
+    if vanishes(ring) {
+        return geometry.area.sqrt();
+    }
+    let points = &geometry.points;
+    let target = points[into];
+    let fan = fan_of(ring, into).map(|[i, j]| [target, points[i], points[j]]);
+    let to_fan = |least: f64, triangle| least.min(point_triangle_distance_sq(geometry.apex, &triangle));
+    let mut largest_sq = fan.fold(f64::INFINITY, to_fan);
+    if !ring.is_cycle() {
+        let new_boundary = [points[0], points[points.len() - 1]];
+        largest_sq = largest_sq.max(point_segment_distance_sq(geometry.apex, new_boundary));
+    }
+    if ring.len() <= FEW {
+        for (j, &point) in points.iter().enumerate() {
+            if j != into && !ring.are_adjacent(into, j) {
+                largest_sq = largest_sq.max(distance_to_star_sq(ring, geometry, midpoint(target, point)));
+            }
+        }
+    }
+    largest_sq.sqrt()
+}
+
+/// Squared distance between a point and the star.
+fn distance_to_star_sq(ring: &Ring, geometry: &Geometry, point: Vector) -> f64 {
+    let spokes = (0..ring.len()).map(|i| [geometry.apex, geometry.points[i], geometry.points[ring.next(i)]]);
+    spokes.map(|triangle| point_triangle_distance_sq(point, &triangle)).fold(f64::INFINITY, f64::min)
+}
+
+/// Pairs of neighbours that make up a fan from neighbour `into`: the triangles of the star that survive the collapse.
+pub fn fan_of(ring: &Ring, into: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
+    (0..ring.len()).map(|i| [i, ring.next(i)]).filter(move |pair| !pair.contains(&into))
+}
+
+/// Errors that deletions have left at each vertex (equation 5).
+#[derive(Clone, Debug)]
+pub struct Accumulated {
+    errors: Vec<f32>,
+}
+
+impl Accumulated {
+    /// Nothing was deleted yet.
+    pub fn new(n_vertices: usize) -> Self {
+        Self { errors: vec![0.0; n_vertices] }
+    }
+
+    /// What was left at `v`.
+    #[inline]
+    pub fn at(&self, v: u32) -> f64 {
+        f64::from(self.errors[v as usize])
+    }
+
+    /// The vertex takes what was left at the one that it copies.
+    pub fn add_copy(&mut self, v: u32) {
+        self.errors.push(self.errors[v as usize]);
+    }
+
+    /// Largest error at the neighbours once the ring's centre has gone at this distance from what takes its place.
+    pub fn after(&self, ring: &Ring, distance: f64) -> f64 {
+        let around = ring.vertices.iter().map(|&r| self.at(r));
+        around.fold(self.at(ring.center), f64::max) + distance
+    }
+
+    /// The ring's centre goes: each neighbour is left with the distance and the error that had come together at the centre or
+    /// at itself.
+    pub fn distribute(&mut self, ring: &Ring, distance: f64) {
+        let own = self.at(ring.center);
+        for &r in &ring.vertices {
+            self.errors[r as usize] = round_up(own.max(self.at(r)) + distance);
+        }
+    }
+
+    /// `from` goes into `into`, at the same place.
+    pub fn merge(&mut self, from: u32, into: u32) {
+        self.errors[into as usize] = self.errors[into as usize].max(self.errors[from as usize]);
+    }
+}
+
+/// The average plane of a star (W. J. Schroeder, J. A. Zarge and W. E. Lorensen, "Decimation of triangle meshes", SIGGRAPH
+/// 1992, section 3.2): normals and centres weighted with the areas.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AveragePlane {
+    /// Sum of the normals, each as long as twice its triangle's area.
+    pub normal: Vector,
+    /// Sum of the corners beside the vertex, relative to it, weighted with twice the areas.
+    pub weighted: Vector,
+    /// Twice the sum of the areas.
+    pub weight: f64,
+}
+
+impl AveragePlane {
+    /// Adds the triangle between two spokes that start at the vertex; gives its normal, twice its area long, and that length.
+    #[inline]
+    pub fn add(&mut self, first: Vector, second: Vector) -> (Vector, f64) {
+        let normal = cross(first, second);
+        let size = length(normal);
+        for axis in 0..3 {
+            self.normal[axis] += normal[axis];
+            self.weighted[axis] += size * (first[axis] + second[axis]);
+        }
+        self.weight += size;
+        (normal, size)
+    }
+
+    /// Distance between the vertex and the plane; zero for a star without area.
+    #[inline]
+    pub fn distance(&self) -> f64 {
+        let size_sq = length_sq(self.normal);
+        if size_sq > 0.0 && self.weight > 0.0 {
+            // The centre of a triangle is a third of its spokes away from the vertex.
+            (dot(self.weighted, self.normal) / (3.0 * self.weight)).abs() / size_sq.sqrt()
+        } else {
+            0.0
+        }
+    }
+}
+
+/// A vector from the vertex to a point.
+#[inline]
+pub fn spoke(apex: Vector, point: Vector) -> Vector {
+    sub(point, apex)
+}

@@ -1,0 +1,51 @@
+//! Progressive decimation: edge collapses while they can be had, vertex splits where they cannot, down to nothing.
+//!
+//! W. J. Schroeder, "A topology modifying progressive decimation algorithm", *IEEE Visualization* 1997. Vertices leave in
+//! the order of their error, each along its shortest valid edge. When no vertex has a valid edge left, the mesh is split at
+//! one: along feature edges, into manifold pieces, or in half. Pieces can always be collapsed, so every triangle count is
+//! reached.
+//!
+//! The driver is [`decimation`]; its parts bear the names of the paper's sections: [`classify`] (4.2), [`error`] (4.3),
+//! [`queue`] (4.4), [`collapse`] (4.5), [`split`] (4.6). A [`proof`] of the error is carried along for as long as nothing
+//! but collapses that keep the topology happened; [`events`] are the moments at which it changed.
+
+pub mod classify;
+pub mod collapse;
+pub mod complex;
+pub mod decimation;
+pub mod error;
+pub mod events;
+pub mod journal;
+pub mod proof;
+pub mod queue;
+pub mod ring;
+pub mod split;
+mod steps;
+pub mod wedges;
+
+pub use decimation::{Decimation, Settings};
+use events::EventLog;
+use journal::{Counts, Trace};
+
+/// How far the decimator goes, and how it splits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ProgressiveOptions {
+    /// Part of the triangles to remove, from 0 to 1; `None` for all of them.
+    pub reduction: Option<f64>,
+    /// Split along feature edges, at corners and at non-manifold vertices before anything else (section 4.9): better for
+    /// large flat faces with thin sides between them.
+    pub pre_split: bool,
+}
+
+/// What this decimator leaves beside the history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Passage {
+    /// All operations.
+    pub trace: Trace,
+    /// All changes of topology.
+    pub events: EventLog,
+    /// How many operations there were.
+    pub counts: Counts,
+    /// Steps whose error is certified, from step 0 on. Those behind carry the accumulated estimate.
+    pub n_certified_steps: u32,
+}
