@@ -12,6 +12,7 @@ pub mod geometry;
 pub mod history;
 pub mod measure;
 pub mod mesh;
+pub mod progressive_mesh;
 pub mod query;
 pub mod reprove;
 pub mod store;

@@ -92,6 +92,12 @@ impl Opened {
         self.memory.bytes()
     }
 
+    /// Operations from nothing to the input, for [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh); empty where
+    /// the file has none.
+    pub fn operations(&self) -> &[u8] {
+        self.section(SectionKind::Operations)
+    }
+
     /// Error of each level.
     pub fn errors(&self) -> &[f64] {
         self.section(SectionKind::Errors)

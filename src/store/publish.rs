@@ -1,7 +1,7 @@
 //! Publishing: a file appears at its path whole and checked, or not at all.
 
 use super::integrity::check_integrity;
-use super::{Provenance, StoreOptions, StoreReport, VerifyError, Vertices, WriteError, write_to};
+use super::{Provenance, StoreOptions, StoreReport, VerifyError, Vertices, WriteError, write_to_with};
 use crate::History;
 use nephrite_formats::neph::{Directory, MAX_HEAD_BYTES};
 use std::fs::File;
@@ -50,6 +50,22 @@ pub fn write<'a, const CORNERS: usize>(
     provenance: &Provenance,
     options: &StoreOptions,
 ) -> Result<StoreReport, WriteError> {
+    write_with(path, mesh, history, provenance, options, &[])
+}
+
+/// As [`write()`], with an [operation stream](crate::progressive_mesh) as a section of its own; none where it is empty.
+///
+/// # Errors
+///
+/// As [`write()`].
+pub fn write_with<'a, const CORNERS: usize>(
+    path: impl AsRef<Path>,
+    mesh: impl Into<Vertices<'a>>,
+    history: &History<CORNERS>,
+    provenance: &Provenance,
+    options: &StoreOptions,
+    operations: &[u8],
+) -> Result<StoreReport, WriteError> {
     let path = path.as_ref();
     let directory = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -60,13 +76,11 @@ pub fn write<'a, const CORNERS: usize>(
         move |source| WriteError::Io { action, path, source }
     };
     let mut temporary = create_beside(directory).map_err(failed("create a file in", directory))?;
-    let report =
-        write_to(temporary.as_file_mut(), mesh, history, provenance, options).map_err(
-            |error| match error {
-                WriteError::Stream(source) => failed("write", path)(source),
-                other => other,
-            },
-        )?;
+    let report = write_to_with(temporary.as_file_mut(), mesh, history, provenance, options, operations)
+        .map_err(|error| match error {
+            WriteError::Stream(source) => failed("write", path)(source),
+            other => other,
+        })?;
     temporary.as_file().sync_all().map_err(failed("sync", path))?;
     check_written(temporary.path())
         .map_err(|source| WriteError::Damaged { path: temporary.path().to_owned(), source })?;

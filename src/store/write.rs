@@ -65,6 +65,22 @@ pub fn write_to<'a, const CORNERS: usize>(
     provenance: &Provenance,
     options: &StoreOptions,
 ) -> Result<StoreReport, WriteError> {
+    write_to_with(stream, mesh, history, provenance, options, &[])
+}
+
+/// As [`write_to`], with an [operation stream](crate::progressive_mesh) as a section of its own; none where it is empty.
+///
+/// # Errors
+///
+/// As [`write_to`].
+pub fn write_to_with<'a, const CORNERS: usize>(
+    stream: &mut (impl Write + Seek),
+    mesh: impl Into<Vertices<'a>>,
+    history: &History<CORNERS>,
+    provenance: &Provenance,
+    options: &StoreOptions,
+    operations: &[u8],
+) -> Result<StoreReport, WriteError> {
     let mesh = mesh.into();
     check_mesh(mesh, history)?;
     history.check()?;
@@ -89,6 +105,7 @@ pub fn write_to<'a, const CORNERS: usize>(
         metadata,
         deviation_names: deviation_names(history)?,
         attributes,
+        operations,
     };
     let placement = neph::plan(&content.section_bytes(), CHUNK_BYTES)?;
     content.stream_to(stream, &placement)?;
@@ -175,6 +192,7 @@ struct Content<'a, const CORNERS: usize> {
     metadata: Vec<u8>,
     deviation_names: Vec<u8>,
     attributes: AttributeSections,
+    operations: &'a [u8],
 }
 
 impl<const CORNERS: usize> Content<'_, CORNERS> {
@@ -207,6 +225,9 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             sections.push((SectionKind::AttributeValues, self.attributes.values_bytes));
         }
         sections.extend(self.slot_section_bytes(n_vertices, n_slots));
+        if !self.operations.is_empty() {
+            sections.push((SectionKind::Operations, self.operations.len() as u64));
+        }
         sections
     }
 
@@ -263,6 +284,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
             SectionKind::Runs => body.put(bytemuck::cast_slice(&self.runs)),
             SectionKind::AttributeTable => body.put(bytemuck::cast_slice(&self.attributes.table)),
             SectionKind::AttributeNames => body.put(&self.attributes.names),
+            SectionKind::Operations => body.put(self.operations),
             SectionKind::AttributeValues => self.stream_attribute_values(body),
             SectionKind::Positions => body.put_each(self.positions()),
             SectionKind::Simplices => body.put_each(self.corners(self.layout.slots())),

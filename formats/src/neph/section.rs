@@ -56,6 +56,8 @@ pub enum SectionKind {
     DeviationNames = 19,
     /// `f64` per level, one deviation after the other.
     Deviations = 20,
+    /// Operations that lead from nothing to the input, see `progressive_mesh` of the engine.
+    Operations = 21,
 }
 
 /// Most deviations in one file.
@@ -65,7 +67,7 @@ pub const MAX_DEVIATION_NAMES_BYTES: u64 = 64 * 1024;
 
 impl SectionKind {
     /// Every kind of version 1, in the order of their numbers.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Metadata,
         Self::Errors,
         Self::SimplexCounts,
@@ -86,6 +88,7 @@ impl SectionKind {
         Self::CompactStamps,
         Self::DeviationNames,
         Self::Deviations,
+        Self::Operations,
     ];
 
     /// The sections that hold the slots in the plain form.
@@ -115,6 +118,7 @@ impl SectionKind {
                 | Self::VertexBirths
                 | Self::DeviationNames
                 | Self::Deviations
+                | Self::Operations
         )
     }
 }

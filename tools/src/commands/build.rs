@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use clap::{Args, ValueEnum};
 use nephrite::decimate::jade::JadeOptions;
 use nephrite::decimate::progressive::ProgressiveOptions;
+use nephrite::progressive_mesh::encode;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
 use nephrite::{Bound, Build, BuildError, BuildOptions, Method, TriangleMesh};
 use nephrite_formats::ReadReport;
@@ -110,6 +111,10 @@ struct ProgressiveArguments {
     /// thin sides between them
     #[arg(long)]
     pre_split: bool,
+
+    /// Store the operations as well, from which the mesh can be built up one by one while they arrive
+    #[arg(long)]
+    operations: bool,
 }
 
 /// The decimators, as they are typed.
@@ -188,7 +193,7 @@ fn positive_length(text: &str) -> Result<Length, LengthError> {
 impl Arguments {
     fn options(&self, bounding_diagonal: f64) -> BuildOptions {
         let JadeArguments { k, c1, c2, aspect_loss } = self.jade;
-        let ProgressiveArguments { reduction, pre_split } = self.progressive;
+        let ProgressiveArguments { reduction, pre_split, .. } = self.progressive;
         BuildOptions {
             method: self.method.into(),
             bound: self.bound.into(),
@@ -269,7 +274,13 @@ fn write(
         topology: build.passage.as_ref().map_or(Value::Null, |passage| json!(passage.events)),
     };
     let stored = arguments.stored();
-    store::write(&arguments.output, &build.mesh, &build.history, &provenance, &stored)
+    let operations = match build.passage {
+        Some(_) if arguments.progressive.operations => {
+            encode(build).map_err(|source| Failure::file(&arguments.output, source))?.bytes
+        }
+        _ => Vec::new(),
+    };
+    store::write_with(&arguments.output, &build.mesh, &build.history, &provenance, &stored, &operations)
         .map_err(|source| Failure::file(&arguments.output, source))
 }
 

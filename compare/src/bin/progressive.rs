@@ -1,0 +1,135 @@
+//! Progressive decimation in the rows of its paper's figure 7, the operation stream, and vtkDecimatePro's time.
+//!
+//! vtkDecimatePro is the toolkit in which the paper's author implemented it. It is called through Python (`pip install vtk`) in turn with
+//! ours, and only the time of its `Update` counts; ours counts repair, decimation and the record of the whole history.
+
+use clap::Parser;
+use nephrite::decimate::progressive::Passage;
+use nephrite::progressive_mesh::{ProgressiveMesh, StreamError, encode};
+use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build};
+use nephrite_compare::statistics::median;
+use nephrite_compare::{CompareError, Table, load};
+use std::hint::black_box;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+#[derive(Debug, Parser)]
+#[command(about = "Progressive decimation beside its paper and vtkDecimatePro, as Markdown")]
+struct Arguments {
+    /// Meshes to simplify; PLY where vtkDecimatePro is to read them
+    #[arg(required = true)]
+    meshes: Vec<PathBuf>,
+
+    /// Split along feature edges before anything else
+    #[arg(long)]
+    pre_split: bool,
+
+    /// Python that has vtk; without it vtkDecimatePro is left out
+    #[arg(long)]
+    python: Option<PathBuf>,
+
+    /// Samples of which the median is taken
+    #[arg(long, default_value_t = 5)]
+    repeats: usize,
+}
+
+/// The reductions of the paper's table.
+const REDUCTIONS: [f64; 4] = [0.5, 0.75, 0.9, 1.0];
+/// Reads a mesh, decimates it and prints the seconds that took.
+const VTK: &str = "
+import sys, time, vtk
+reader = vtk.vtkPLYReader(); reader.SetFileName(sys.argv[1]); reader.Update()
+decimate = vtk.vtkDecimatePro(); decimate.SetInputData(reader.GetOutput())
+decimate.SetTargetReduction(float(sys.argv[2])); decimate.BoundaryVertexDeletionOn()
+start = time.perf_counter(); decimate.Update(); print(time.perf_counter() - start)
+";
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    for path in &arguments.meshes {
+        if let Err(error) = compare(path, &arguments) {
+            eprintln!("progressive: {}: {error}", path.display());
+            return ExitCode::FAILURE;
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn compare(path: &Path, arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
+    let mesh = load(path)?;
+    println!("\n{}: {} triangles\n", path.display(), mesh.triangles.len());
+    let mut table = Table::new(["reduction", "collapses", "splits", "merges", "seconds", "vtkDecimatePro"]);
+    for reduction in REDUCTIONS {
+        let (mut ours, mut theirs, mut counts) = (vec![], vec![], None);
+        for _ in 0..arguments.repeats {
+            let start = Instant::now();
+            let build = decimate(&mesh, reduction, arguments.pre_split)?;
+            ours.push(start.elapsed().as_secs_f64());
+            counts = build.passage.as_ref().map(|Passage { counts, .. }| *counts);
+            if let Some(python) = &arguments.python {
+                theirs.push(vtk_seconds(python, path, reduction)?);
+            }
+        }
+        let counts = counts.unwrap_or_default();
+        let theirs = if theirs.is_empty() { "-".to_owned() } else { format!("{:.3}", median(&theirs)) };
+        table.push([
+            format!("{reduction:.2}"),
+            counts.collapses.to_string(),
+            counts.splits.to_string(),
+            counts.merges.to_string(),
+            format!("{:.3}", median(&ours)),
+            theirs,
+        ]);
+    }
+    println!("{table}");
+    print_stream(&decimate(&mesh, 1.0, arguments.pre_split)?, arguments.repeats)?;
+    Ok(())
+}
+
+fn decimate(mesh: &TriangleMesh, reduction: f64, pre_split: bool) -> Result<Build, CompareError> {
+    let mut options =
+        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
+    options.progressive.reduction = Some(reduction);
+    options.progressive.pre_split = pre_split;
+    Ok(build(mesh, &options, &|_| ControlFlow::Continue(()))?)
+}
+
+fn vtk_seconds(python: &Path, mesh: &Path, reduction: f64) -> Result<f64, Box<dyn std::error::Error>> {
+    let output = Command::new(python).args(["-c", VTK]).arg(mesh).arg(reduction.to_string()).output()?;
+    Ok(String::from_utf8_lossy(&output.stdout).trim().parse()?)
+}
+
+/// What the operations weigh, and how fast they play.
+fn print_stream(build: &Build, repeats: usize) -> Result<(), StreamError> {
+    let encoded = encode(build)?;
+    let n_vertices = encoded.n_vertices as f64;
+    let n_copies = build.passage.as_ref().map_or(0, |passage| passage.trace.copies.len());
+    let standard = 12.0 * (build.mesh.triangles.len() + build.mesh.positions.len() - n_copies) as f64;
+    println!(
+        "{} operations: {:.3} of indices and positions uncoded, {:.3} coded, {:.1} bits per vertex",
+        encoded.n_operations,
+        encoded.plain_bytes as f64 / standard,
+        encoded.bytes.len() as f64 / standard,
+        8.0 * encoded.bytes.len() as f64 / n_vertices,
+    );
+    let start = Instant::now();
+    let mut mesh = ProgressiveMesh::from_bytes(&encoded.bytes)?;
+    let reading = start.elapsed().as_secs_f64();
+    let mut seconds = vec![];
+    for _ in 0..repeats {
+        let start = Instant::now();
+        mesh.refine(usize::MAX);
+        mesh.coarsen(usize::MAX);
+        black_box(mesh.triangles());
+        seconds.push(start.elapsed().as_secs_f64());
+    }
+    let million = encoded.n_operations as f64 / 1e6;
+    println!(
+        "read at {:.2} million operations a second, played at {:.1}",
+        million / reading,
+        2.0 * million / median(&seconds)
+    );
+    Ok(())
+}

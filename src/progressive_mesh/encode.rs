@@ -1,0 +1,239 @@
+//! Writing a stream.
+
+use super::StreamError;
+use super::decode::{ARRANGEMENTS, BLOCK_HEADER_BYTES, ESCAPE, FIRST_BLOCK, Header, LARGEST_BLOCK};
+use super::growth::{Growth, Kind};
+use super::plan::{Planned, plan};
+use super::planes::{Planes, difference, plane};
+use crate::Build;
+use nephrite_formats::TriangleMesh;
+
+/// A stream and what it weighs.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Encoded {
+    /// The stream.
+    pub bytes: Vec<u8>,
+    /// Its length before coding.
+    pub plain_bytes: usize,
+    /// Operations.
+    pub n_operations: usize,
+    /// Vertices that ever appear.
+    pub n_vertices: usize,
+}
+
+/// The operations of a build as a stream. O(n) but for coding, which is most of it.
+///
+/// # Errors
+///
+/// [`StreamError::NoOperations`] for a build of another decimator.
+pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
+    let trace = &build.passage.as_ref().ok_or(StreamError::NoOperations)?.trace;
+    let mut writer = Writer::new(&build.mesh);
+    let planned = plan(build, trace);
+    let mut n_in_block = 0;
+    let mut block_len = FIRST_BLOCK;
+    for operation in &planned {
+        n_in_block += writer.put(operation);
+        if n_in_block >= block_len {
+            writer.end_block(n_in_block);
+            (n_in_block, block_len) = (0, (2 * block_len).min(LARGEST_BLOCK));
+        }
+    }
+    writer.end_block(n_in_block);
+    Ok(writer.finish())
+}
+
+const UNKNOWN: u32 = u32::MAX;
+
+struct Writer<'a> {
+    mesh: &'a TriangleMesh,
+    stride_bytes: usize,
+    growth: Growth,
+    /// Number of each vertex and slot in the order of growth.
+    number: Vec<u32>,
+    triangle: Vec<u32>,
+    /// Vertices of the mesh by number.
+    vertices: Vec<u32>,
+    planes: Planes,
+    link: Vec<u32>,
+    bytes: Vec<u8>,
+    plain_bytes: usize,
+}
+
+impl<'a> Writer<'a> {
+    fn new(mesh: &'a TriangleMesh) -> Self {
+        let stride_bytes = mesh.attributes.iter().map(nephrite_formats::Attribute::stride_bytes).sum();
+        Self {
+            mesh,
+            stride_bytes,
+            growth: Growth::default(),
+            number: vec![UNKNOWN; mesh.positions.len()],
+            triangle: vec![UNKNOWN; mesh.triangles.len()],
+            vertices: Vec::new(),
+            planes: Planes::new(stride_bytes),
+            link: Vec::new(),
+            bytes: vec![0; Header::BYTES],
+            plain_bytes: Header::BYTES,
+        }
+    }
+
+    /// Puts an operation down; gives how many it took.
+    fn put(&mut self, planned: &Planned) -> usize {
+        match planned {
+            &Planned::VertexMerge { vertex, beside } => {
+                self.put_merge(vertex, beside);
+                1
+            }
+            &Planned::Triangle { slot, corners } => {
+                self.put_triangle(slot, corners);
+                1
+            }
+            // A vertex that is not there yet has no star to split: its triangles come one by one.
+            Planned::EdgeSplit { beside, born, .. } if self.number[*beside as usize] == UNKNOWN => {
+                born.iter().for_each(|&(slot, corners)| self.put_triangle(slot, corners));
+                born.len()
+            }
+            Planned::EdgeSplit { vertex, beside, moved, born } => {
+                self.put_edge_split([*vertex, *beside], moved, born);
+                1
+            }
+        }
+    }
+
+    fn put_merge(&mut self, vertex: u32, beside: u32) {
+        self.planes.put(plane::KINDS, kind_byte(Kind::VertexMerge, 0));
+        let [vertex, beside] = [vertex, beside].map(|v| self.number[v as usize]);
+        self.planes.put_u32(plane::VERTICES, beside);
+        self.planes.put_u32(plane::VERTICES, vertex);
+        self.growth.vertex_merge(vertex, beside);
+    }
+
+    fn put_triangle(&mut self, slot: u32, corners: [u32; 3]) {
+        self.planes.put(plane::KINDS, kind_byte(Kind::Triangle, 0));
+        let n_before = self.vertices.len();
+        for v in corners {
+            self.put_vertex_or_new(v, self.vertices.len().saturating_sub(1));
+        }
+        self.triangle[slot as usize] = count(self.growth.born.len());
+        let numbers = corners.map(|v| self.number[v as usize]);
+        self.growth.triangle(numbers, count(self.vertices.len() - n_before));
+    }
+
+    fn put_edge_split(&mut self, [vertex, beside]: [u32; 2], moved: &[u32], born: &[(u32, [u32; 3])]) {
+        let n_before = self.vertices.len();
+        let origin = self.number[beside as usize];
+        let n_born = u8::try_from(born.len()).unwrap_or(u8::MAX);
+        self.planes.put(plane::KINDS, kind_byte(Kind::EdgeSplit, n_born));
+        self.planes.put_u32(plane::VERTICES, count(n_before) - 1 - origin);
+        let mut moved: Vec<u32> = moved.iter().map(|&slot| self.triangle[slot as usize]).collect();
+        moved.sort_unstable();
+        let star = self.growth.star(origin).to_vec();
+        for part in star.chunks(8) {
+            let bits = part.iter().zip(0..).fold(0, |bits, (triangle, bit)| {
+                bits | u8::from(moved.binary_search(triangle).is_ok()) << bit
+            });
+            self.planes.put(plane::MASKS, bits);
+        }
+        // In the order of the star, which the reader finds them in.
+        let moved: Vec<u32> =
+            star.into_iter().filter(|triangle| moved.binary_search(triangle).is_ok()).collect();
+        self.put_new(vertex, origin as usize);
+        let mut link = std::mem::take(&mut self.link);
+        self.growth.link(origin, &mut link);
+        let mut numbers = Vec::with_capacity(born.len());
+        for (at, &(slot, corners)) in born.iter().enumerate() {
+            let third = corners.into_iter().find(|&v| v != vertex && v != beside).unwrap_or(vertex);
+            let place = link.iter().position(|&v| v == self.number[third as usize]);
+            match place.and_then(|place| u8::try_from(place).ok()).filter(|&place| place != ESCAPE) {
+                Some(place) => self.planes.put(plane::LINKS, place),
+                None => {
+                    self.planes.put(plane::LINKS, ESCAPE);
+                    self.put_vertex_or_new(third, n_before);
+                }
+            }
+            let ends = [vertex, beside, third];
+            let is_this = |order: &[usize; 3]| order.map(|i| ends[i]) == corners;
+            let order = ARRANGEMENTS.iter().position(is_this).unwrap_or_default();
+            self.planes.put(plane::ORDERS, u8::try_from(order).unwrap_or_default());
+            self.triangle[slot as usize] = count(self.growth.born.len() + at);
+            numbers.push(corners.map(|v| self.number[v as usize]));
+        }
+        self.link = link;
+        self.growth.edge_split(origin, &moved, &numbers, count(self.vertices.len() - n_before));
+    }
+
+    /// Names a vertex; one that is new is named by the next number, and described.
+    fn put_vertex_or_new(&mut self, vertex: u32, near: usize) {
+        let number = self.number[vertex as usize];
+        if number == UNKNOWN {
+            self.planes.put_u32(plane::VERTICES, count(self.vertices.len()));
+            self.put_new(vertex, near);
+        } else {
+            self.planes.put_u32(plane::VERTICES, number);
+        }
+    }
+
+    /// Numbers a vertex and puts down how its position and attributes differ from those of a numbered one.
+    fn put_new(&mut self, vertex: u32, near: usize) {
+        self.number[vertex as usize] = count(self.vertices.len());
+        let near = self.vertices.get(near).map(|&near| near as usize);
+        let from = near.map_or([0.0; 3], |near| self.mesh.positions[near]);
+        for (value, from) in self.mesh.positions[vertex as usize].into_iter().zip(from) {
+            self.planes.put_u32(plane::COORDINATES, difference(value, from));
+        }
+        let mut plane = plane::ATTRIBUTES;
+        for attribute in &self.mesh.attributes {
+            let stride = attribute.stride_bytes();
+            let bytes = &attribute.bytes[vertex as usize * stride..][..stride];
+            for (i, byte) in bytes.iter().enumerate() {
+                let from = near.map_or(0, |near| attribute.bytes[near * stride + i]);
+                self.planes.put(plane, byte.wrapping_sub(from));
+                plane += 1;
+            }
+        }
+        self.vertices.push(vertex);
+    }
+
+    fn end_block(&mut self, n_operations: usize) {
+        if n_operations == 0 {
+            return;
+        }
+        let planes = std::mem::replace(&mut self.planes, Planes::new(self.stride_bytes));
+        let coded = planes.code();
+        self.plain_bytes += planes.plain_bytes() + BLOCK_HEADER_BYTES;
+        let checksum = super::decode::checksum(&coded);
+        for field in [count(n_operations), count(coded.len()), checksum] {
+            self.bytes.extend_from_slice(&field.to_le_bytes());
+        }
+        self.bytes.extend_from_slice(&coded);
+    }
+
+    fn finish(mut self) -> Encoded {
+        let header = Header {
+            stride_bytes: count(self.stride_bytes),
+            n_operations: self.growth.operations.len() as u64,
+        };
+        self.bytes[..Header::BYTES].copy_from_slice(&header.to_bytes());
+        Encoded {
+            bytes: self.bytes,
+            plain_bytes: self.plain_bytes,
+            n_operations: self.growth.operations.len(),
+            n_vertices: self.vertices.len(),
+        }
+    }
+}
+
+/// Kind in the two lowest bits, number of new triangles above.
+fn kind_byte(kind: Kind, n_born: u8) -> u8 {
+    let kind = match kind {
+        Kind::EdgeSplit => 0,
+        Kind::VertexMerge => 1,
+        Kind::Triangle => 2,
+    };
+    kind | n_born << 2
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "vertices, slots and operations of a build are u32")]
+fn count(len: usize) -> u32 {
+    len as u32
+}

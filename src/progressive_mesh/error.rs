@@ -1,0 +1,60 @@
+//! What can be wrong with a stream.
+
+/// A stream could not be read, or not be made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StreamError {
+    /// The build has no operations: another decimator made it.
+    #[error("only the progressive decimator leaves operations")]
+    NoOperations,
+    /// The bytes begin like no stream of this version.
+    #[error("an operation stream begins with {expected:08x}, found {found:08x}")]
+    Magic {
+        /// First four bytes.
+        found: u32,
+        /// What they must be.
+        expected: u32,
+    },
+    /// A block's bytes are not those that were written.
+    #[error("block {block} has checksum {found:08x}, expected {expected:08x}")]
+    Checksum {
+        /// Which block.
+        block: usize,
+        /// Checksum of the bytes.
+        found: u32,
+        /// Checksum in the block.
+        expected: u32,
+    },
+    /// A block does not hold what its operations need.
+    #[error("block {block} has {what} for {found} where {expected} are needed")]
+    Block {
+        /// Which block.
+        block: usize,
+        /// What there is too little or too much of.
+        what: &'static str,
+        /// How many.
+        found: u64,
+        /// How many are needed, at least or at most.
+        expected: u64,
+    },
+    /// An operation names something that does not exist.
+    #[error("operation {operation} names {what} {found} of {n_there}")]
+    Name {
+        /// Which operation.
+        operation: usize,
+        /// `vertex`, `neighbour` or `kind`.
+        what: &'static str,
+        /// What it names.
+        found: u64,
+        /// How many there are.
+        n_there: u64,
+    },
+    /// An operation makes a triangle that is none, or a position that is not finite.
+    #[error("operation {operation} makes {what}")]
+    Meaningless {
+        /// Which operation.
+        operation: usize,
+        /// What it makes.
+        what: &'static str,
+    },
+}

@@ -1,0 +1,151 @@
+//! The mesh as it grows while a stream is written or read: both sides keep one, so that a triangle can be named by its place
+//! in a star.
+
+use crate::mesh::Stars;
+use std::ops::Range;
+
+/// What an operation does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A new vertex takes over triangles of an old one, and new triangles appear.
+    #[default]
+    EdgeSplit,
+    /// A vertex goes into another one.
+    VertexMerge,
+    /// One triangle appears.
+    Triangle,
+}
+
+/// One operation, in the order of growth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Operation {
+    pub(super) kind: Kind,
+    /// The vertex that appears or goes.
+    pub(super) vertex: u32,
+    /// The vertex beside which that happens; itself for a triangle.
+    pub(super) beside: u32,
+    moved_start: u32,
+    n_moved: u32,
+    /// Triangles that appear.
+    pub(super) n_triangles: u32,
+    /// Vertices that appear.
+    pub(super) n_vertices: u32,
+}
+
+impl Operation {
+    /// Where in [`Growth::moved`] the triangles are that change a corner.
+    pub(super) fn moved_range(&self) -> Range<usize> {
+        self.moved_start as usize..(self.moved_start + self.n_moved) as usize
+    }
+}
+
+/// All operations so far, resolved, and the mesh that they lead to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Growth {
+    pub(super) operations: Vec<Operation>,
+    /// Triangles that change a corner, operation by operation.
+    pub(super) moved: Vec<u32>,
+    /// Every triangle with the corners that it appears with.
+    pub(super) born: Vec<[u32; 3]>,
+    /// Triangles after each operation, never falling.
+    pub(super) n_triangles: Vec<u32>,
+    pub(super) n_vertices: u32,
+    triangles: Vec<[u32; 3]>,
+    stars: Stars,
+}
+
+impl Growth {
+    /// Triangles at a vertex, in an order that both sides share.
+    pub(super) fn star(&self, v: u32) -> &[u32] {
+        self.stars.of(v)
+    }
+
+    /// Corners of a triangle now.
+    pub(super) fn corners(&self, triangle: u32) -> [u32; 3] {
+        self.triangles[triangle as usize]
+    }
+
+    /// Neighbours of `v` in the order in which its star names them, into `link`.
+    pub(super) fn link(&self, v: u32, link: &mut Vec<u32>) {
+        link.clear();
+        for &triangle in self.star(v) {
+            for corner in self.corners(triangle) {
+                if corner != v && !link.contains(&corner) {
+                    link.push(corner);
+                }
+            }
+        }
+    }
+
+    /// A new vertex takes `moved` over from `beside`; `born` appear, over `n_vertices` new vertices in all.
+    pub(super) fn edge_split(&mut self, beside: u32, moved: &[u32], born: &[[u32; 3]], n_vertices: u32) {
+        let vertex = self.n_vertices;
+        self.grow(n_vertices);
+        self.give(beside, vertex, moved);
+        self.bear(born);
+        self.push(
+            Operation { kind: Kind::EdgeSplit, vertex, beside, n_vertices, ..Operation::default() },
+            moved,
+            born,
+        );
+    }
+
+    /// All triangles of `vertex` go to `beside`.
+    pub(super) fn vertex_merge(&mut self, vertex: u32, beside: u32) {
+        let moved = self.star(vertex).to_vec();
+        self.give(vertex, beside, &moved);
+        self.push(Operation { kind: Kind::VertexMerge, vertex, beside, ..Operation::default() }, &moved, &[]);
+    }
+
+    /// One triangle appears, with `n_vertices` new vertices.
+    pub(super) fn triangle(&mut self, born: [u32; 3], n_vertices: u32) {
+        self.grow(n_vertices);
+        self.bear(&[born]);
+        let [vertex, ..] = born;
+        let operation =
+            Operation { kind: Kind::Triangle, vertex, beside: vertex, n_vertices, ..Operation::default() };
+        self.push(operation, &[], &[born]);
+    }
+
+    fn grow(&mut self, n_vertices: u32) {
+        (0..n_vertices).for_each(|_| {
+            self.stars.add_vertex();
+        });
+        self.n_vertices += n_vertices;
+    }
+
+    fn give(&mut self, from: u32, to: u32, moved: &[u32]) {
+        for &triangle in moved {
+            let corners = &mut self.triangles[triangle as usize];
+            *corners = corners.map(|v| if v == from { to } else { v });
+            self.stars.add(to, triangle);
+            self.stars.remove(from, triangle);
+        }
+        self.stars.compact(self.triangles.len());
+    }
+
+    fn bear(&mut self, born: &[[u32; 3]]) {
+        for &triangle in born {
+            let index = count(self.triangles.len());
+            self.triangles.push(triangle);
+            triangle.into_iter().for_each(|v| self.stars.add(v, index));
+        }
+    }
+
+    fn push(&mut self, operation: Operation, moved: &[u32], born: &[[u32; 3]]) {
+        let moved_start = count(self.moved.len());
+        self.moved.extend_from_slice(moved);
+        self.born.extend_from_slice(born);
+        self.n_triangles.push(count(self.triangles.len()));
+        let (n_moved, n_triangles) = (count(moved.len()), count(born.len()));
+        self.operations.push(Operation { moved_start, n_moved, n_triangles, ..operation });
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the decoder refuses streams that name more than u32 counts"
+)]
+fn count(len: usize) -> u32 {
+    len as u32
+}
