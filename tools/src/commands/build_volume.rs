@@ -1,6 +1,7 @@
 //! `nephrite build` for volumes: tetrahedra in, every level of detail of them out.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -74,8 +75,10 @@ impl Request<'_> {
         let bounding_diagonal = nephrite::volume::bounding_diagonal(&mesh);
         let options = self.options(bounding_diagonal);
         let fusing = Instant::now();
-        let build = self.fuse(&mesh, &options, bounding_diagonal)?;
+        let half = OnceLock::new();
+        let build = self.fuse(&mesh, &options, bounding_diagonal, &half)?;
         let build_seconds = fusing.elapsed().as_secs_f64();
+        let half_seconds = half.get().map(|then: &Instant| then.duration_since(fusing).as_secs_f64());
         drop(mesh);
         interrupt::check()?;
         let provenance = Provenance {
@@ -92,7 +95,7 @@ impl Request<'_> {
             .map_err(|source| Failure::file(self.output, source))?;
         let sizes = [n_tetrahedra, n_vertices];
         let seconds = [build_seconds, start.elapsed().as_secs_f64()];
-        let outcome = Outcome { sizes, read, build, stored, bounding_diagonal, seconds };
+        let outcome = Outcome { sizes, read, build, stored, bounding_diagonal, seconds, half_seconds };
         Ok(Report { text: outcome.text(self.output), json: outcome.json() })
     }
 
@@ -101,9 +104,15 @@ impl Request<'_> {
         mesh: &TetrahedronMesh,
         options: &VolumeOptions,
         bounding_diagonal: f64,
+        half: &OnceLock<Instant>,
     ) -> Result<VolumeBuild, Failure> {
         let bar = BuildBar::new(bounding_diagonal);
-        let build = nephrite::build_volume(mesh, options, &|progress| bar.observe(progress));
+        let build = nephrite::build_volume(mesh, options, &|progress| {
+            if 2 * progress.n_triangles <= progress.n_triangles_in {
+                half.get_or_init(Instant::now);
+            }
+            bar.observe(progress)
+        });
         build.map_err(|source| match source {
             BuildError::Interrupted => Failure::Interrupted,
             source => Failure::file(self.input, source),
@@ -121,6 +130,8 @@ struct Outcome {
     bounding_diagonal: f64,
     /// Of the fusions, and of all.
     seconds: [f64; 2],
+    /// Of the fusions until half of the tetrahedra were gone.
+    half_seconds: Option<f64>,
 }
 
 impl Outcome {
@@ -160,6 +171,7 @@ impl Outcome {
             "tetrahedra_per_fusion": self.per_fusion()[1],
             "deviations": self.deviations(),
             "fusion_seconds": self.seconds[0],
+            "half_seconds": self.half_seconds,
             "seconds": self.seconds[1],
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
