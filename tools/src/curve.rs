@@ -3,6 +3,8 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
+use nephrite::query::INFLECTION_RATIO;
+
 use crate::figures;
 
 /// Size of the picture, in pixels.
@@ -154,6 +156,14 @@ fn draw_line(svg: &mut String, points: &[(f64, f64)], color: &str, (x, y): (&Axi
         svg,
         "<path d=\"{path}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\" stroke-linejoin=\"round\"/>"
     );
+    for pair in points.windows(2).filter(|pair| pair[1].1 > INFLECTION_RATIO * pair[0].1) {
+        let (x, y) = (x.at(pair[0].0), y.at(pair[0].1));
+        let _ = writeln!(
+            svg,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"white\" stroke=\"{color}\" stroke-width=\"2\">\
+             <title>here the error leaps</title></circle>"
+        );
+    }
     for &(n_triangles, error) in points.iter().take(1).chain(points.last()) {
         let (x, y) = (x.at(n_triangles), y.at(error));
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{color}\"/>");
@@ -223,6 +233,12 @@ mod tests {
         assert_eq!(line.matches('H').count(), 1, "{line}");
         assert_eq!(picture.matches("<circle").count(), 2);
         assert!(!picture.contains("a &lt; b"), "one curve needs no legend");
+    }
+
+    #[test]
+    fn a_leap_of_the_error_is_marked() {
+        let picture = svg("t", "triangles", &[curve(&[(100.0, 0.1), (50.0, 0.2), (10.0, 3.0)])]);
+        assert_eq!(picture.matches("here the error leaps").count(), 1);
     }
 
     #[test]

@@ -107,8 +107,8 @@ async function show(listed: Listed): Promise<void> {
     stage.isSplit = state.isSplit;
     stage.place = state.camera;
     showFacts(listed.name, viewing);
-    const { levels, diagonal, metadata } = file;
-    curve.setSubject({ levels, diagonal, simplices: mine.isVolume ? "tetrahedra" : "triangles", inflections: inflections(metadata.inflections) });
+    const { levels, diagonal } = file;
+    curve.setSubject({ levels, diagonal, simplices: mine.isVolume ? "tetrahedra" : "triangles", inflections: levels.inflections() });
     await viewing.read(() => {
       refresh();
       stage.render();
@@ -122,13 +122,6 @@ async function show(listed: Listed): Promise<void> {
   } catch (error) {
     if (current === listed) showFailure(asFailure(error), (mine?.arrival.finest ?? null) !== null);
   }
-}
-
-/** Levels with an inflection, as numbers or as records with a `level`. */
-function inflections(found: unknown): number[] {
-  if (!Array.isArray(found)) return [];
-  const level = (entry: unknown) => (typeof entry === "object" && entry !== null && "level" in entry ? entry.level : entry);
-  return found.map(level).filter((level): level is number => Number.isInteger(level) && (level as number) >= 0);
 }
 
 let isSweeping = false;

@@ -93,6 +93,8 @@ test("queries find the level that a search through all of them finds", async () 
   for (const error of [-1, 0, ...errors, ...errors.map((error) => error * 1.0001), Infinity, NaN]) {
     assert.equal(levels.atError(error), Math.max(0, errors.findLastIndex((stated) => stated <= error)));
   }
+  assert.equal(levels.inflections()[0], errors.lastIndexOf(0), "no error, then some, is the first leap");
+  for (const level of levels.inflections()) assert.ok(errors[level + 1] > 10 * errors[level]);
   for (const count of [0, 1, ...levels.counts, ...levels.counts.map((count) => count + 1), 1e9]) {
     const first = [...levels.counts].findIndex((n) => n <= count);
     assert.equal(levels.atCount(count), first < 0 ? levels.coarsest : first);

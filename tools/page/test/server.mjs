@@ -37,6 +37,8 @@ export async function serveFolder(folder, { delay = 0, ignoresRanges = false, by
     }
     response.end();
   });
+  // Tests stand still while the program builds a file; a connection closed meanwhile would fail the next request.
+  server.keepAliveTimeout = 120_000;
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,

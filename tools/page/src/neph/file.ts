@@ -15,8 +15,6 @@ export interface Metadata {
   generator?: string;
   method?: string;
   bound?: string;
-  /** Levels at which the error begins to rise faster, or records that hold such a level. */
-  inflections?: unknown;
 }
 
 export class NephFile {

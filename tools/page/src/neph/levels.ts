@@ -8,6 +8,9 @@ export interface Run {
   length: number;
 }
 
+/** By how much the error must rise from a level to the next to be a leap; the paper uses 10 to 100. */
+const INFLECTION_RATIO = 10;
+
 /** Every level of a file. Level 0 is the input, the last the coarsest; errors never fall, counts never rise. */
 export class Levels {
   /**
@@ -59,6 +62,15 @@ export class Levels {
   /** The finest level of at most `count` simplices; the coarsest where none is. */
   atCount(count: number): number {
     return Math.min(this.coarsest, this.firstWhere((level) => this.counts[level] <= count));
+  }
+
+  /**
+   * The error inflection points: levels before which all is well and after which the error leaps (W. J. Schroeder, "A topology
+   * modifying progressive decimation algorithm", IEEE Visualization 1997, equation 6).
+   */
+  inflections(): number[] {
+    const { errors } = this;
+    return Array.from(errors.keys()).filter((level) => errors[level + 1] > INFLECTION_RATIO * errors[level]);
   }
 
   /** The first level for which `holds`, which holds for all levels after it; the number of levels if there is none. */
