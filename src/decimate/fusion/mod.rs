@@ -9,7 +9,7 @@
 //! bounded by the same faces and the new boundary, exactly and without overlap: two sums of tetrahedra in space with one
 //! boundary are equal, and with positive volumes only, no place can be counted more than once. So inside the mesh the test against
 //! flipping is a topological test too, and an exact one. At the boundary it remains to see that the faces that go are a disk, that those
-//! that come are one over the same rim, and that they lie inside ([`patch`]); genus and components then stay what they are.
+//! that come are one over the same rim, and that they lie inside (`patch`); genus and components then stay what they are.
 //!
 //! Reference: P. Chopra, J. Meyer: "Topology sensitive volume mesh simplification with planar quadric error metrics" (IASTED
 //! International Conference on Visualization, Imaging and Image Processing, 2003).
