@@ -50,6 +50,16 @@ pub(crate) enum Failure {
         /// `a volume` or `a surface`.
         kind: &'static str,
     },
+    /// Some parts of a database could not be built; the others were.
+    #[error("{}: {n_failed} of {n_parts} parts failed, see its manifest", folder.display())]
+    Parts {
+        /// Folder of the database.
+        folder: PathBuf,
+        /// Parts that failed.
+        n_failed: usize,
+        /// All parts.
+        n_parts: usize,
+    },
     /// Somebody pressed Ctrl-C.
     #[error("interrupted, nothing was written")]
     Interrupted,

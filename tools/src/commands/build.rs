@@ -1,6 +1,6 @@
 //! `nephrite build`: a mesh in, every level of detail of it out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
@@ -13,6 +13,7 @@ use nephrite_formats::ReadReport;
 use serde_json::{Value, json};
 
 use super::build_volume::{FusionArguments, Request};
+use super::database;
 use crate::failure::Failure;
 use crate::length::{Length, LengthError};
 use crate::progress::BuildBar;
@@ -21,14 +22,23 @@ use crate::threads::Threads;
 use crate::{figures, files, interrupt};
 
 /// Turn a mesh into a file that holds every level of detail of it.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct Arguments {
     /// Mesh to read: PLY, OBJ, STL, OFF, glTF or GLB; or a volume: VTU, VTK, Gmsh, MEDIT, TetGen or PLOT3D
     mesh: PathBuf,
 
+    /// More parts of a database, or folders of them
+    #[arg(requires = "output_dir")]
+    more: Vec<PathBuf>,
+
     /// File to write
-    #[arg(short, long, value_name = "OUT.neph")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "OUT.neph", required_unless_present = "output_dir")]
+    output: Option<PathBuf>,
+
+    /// Build a database in this folder: a file for each part, or for each mesh of a folder named as one, and a manifest of all. What is
+    /// there and unchanged is left alone
+    #[arg(long, value_name = "DB", conflicts_with = "output")]
+    output_dir: Option<PathBuf>,
 
     /// Stop at this error (a length, or with % in percent of the diagonal); without it, go as far as possible
     #[arg(long, value_name = "E", value_parser = positive_length)]
@@ -74,7 +84,7 @@ pub(crate) struct Arguments {
 }
 
 /// Constants of the JADE decimator, by their names in the paper.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Options of the JADE decimator")]
 struct JadeArguments {
     /// The first limit on the local error is the largest one divided by this
@@ -100,7 +110,7 @@ struct JadeArguments {
 }
 
 /// How far the progressive decimator goes.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Options of the progressive decimator")]
 struct ProgressiveArguments {
     /// Part of the triangles to remove, from 0 to 1 (all of them, which is what it does without this)
@@ -191,7 +201,27 @@ fn positive_length(text: &str) -> Result<Length, LengthError> {
 }
 
 impl Arguments {
-    fn options(&self, bounding_diagonal: f64) -> BuildOptions {
+    /// Mesh to read.
+    pub(super) fn mesh(&self) -> &Path {
+        &self.mesh
+    }
+
+    /// File to write.
+    pub(super) fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// All meshes that were named.
+    pub(super) fn parts(&self) -> impl Iterator<Item = &PathBuf> {
+        std::iter::once(&self.mesh).chain(&self.more)
+    }
+
+    /// The same for one part of a database.
+    pub(super) fn for_part(&self, part: &Path, output: &Path) -> Self {
+        Self { mesh: part.to_owned(), output: Some(output.to_owned()), ..self.clone() }
+    }
+
+    pub(super) fn options(&self, bounding_diagonal: f64) -> BuildOptions {
         let JadeArguments { k, c1, c2, aspect_loss } = self.jade;
         let ProgressiveArguments { reduction, pre_split, .. } = self.progressive;
         BuildOptions {
@@ -208,14 +238,14 @@ impl Arguments {
 }
 
 impl Arguments {
-    fn stored(&self) -> StoreOptions {
+    pub(super) fn stored(&self) -> StoreOptions {
         StoreOptions { levels: self.levels, window_levels: self.window_levels, is_compact: self.compact }
     }
 
     fn volume(&self) -> Request<'_> {
         Request {
             input: &self.mesh,
-            output: &self.output,
+            output: self.output(),
             max_error: self.max_error,
             feature_angle: self.feature_angle,
             stored: self.stored(),
@@ -227,7 +257,10 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let start = Instant::now();
     interrupt::listen();
-    files::check_output(&arguments.output, &[&arguments.mesh])?;
+    if let Some(folder) = &arguments.output_dir {
+        return arguments.threads.run(|| database::run(arguments, folder))?;
+    }
+    files::check_output(arguments.output(), &[&arguments.mesh])?;
     arguments.threads.run(|| {
         if arguments.method == MethodName::Fusion || files::is_volume(&arguments.mesh) {
             return arguments.volume().run();
@@ -255,7 +288,7 @@ fn decimate(arguments: &Arguments, mesh: &TriangleMesh, bounding_diagonal: f64) 
 }
 
 /// Publishes the file, with all that a reader may want to know of its making.
-fn write(
+pub(super) fn write(
     arguments: &Arguments,
     mesh: &TriangleMesh,
     build: &Build,
@@ -276,12 +309,12 @@ fn write(
     let stored = arguments.stored();
     let operations = match build.passage {
         Some(_) if arguments.progressive.operations => {
-            encode(build).map_err(|source| Failure::file(&arguments.output, source))?.bytes
+            encode(build).map_err(|source| Failure::file(arguments.output(), source))?.bytes
         }
         _ => Vec::new(),
     };
-    store::write_with(&arguments.output, &build.mesh, &build.history, &provenance, &stored, &operations)
-        .map_err(|source| Failure::file(&arguments.output, source))
+    store::write_with(arguments.output(), &build.mesh, &build.history, &provenance, &stored, &operations)
+        .map_err(|source| Failure::file(arguments.output(), source))
 }
 
 /// The name that a choice has in JSON.
@@ -342,6 +375,6 @@ impl Outcome {
             ),
             ("time", figures::time(Duration::from_secs_f64(self.seconds))),
         ]);
-        format!("{}\n{list}", arguments.output.display())
+        format!("{}\n{list}", arguments.output().display())
     }
 }

@@ -18,7 +18,7 @@ use crate::report::Report;
 use crate::{figures, files, interrupt};
 
 /// Constants of the fusion of tetrahedra.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Options for volumes")]
 pub(super) struct FusionArguments {
     /// How much fields count beside the shape: the range of a field is worth this many bounding box diagonals

@@ -4,6 +4,7 @@ mod bench;
 mod build;
 mod build_volume;
 mod completions;
+mod database;
 mod demo;
 mod extract;
 mod generate;
