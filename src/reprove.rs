@@ -16,6 +16,7 @@ const MAX_PIECES: usize = 20_000_000;
 pub struct ErrorTable<'a> {
     lod: &'a Lod,
     input: TriangleMesh,
+    last_certified: u32,
 }
 
 /// Why a level's error was not proven anew.
@@ -27,6 +28,14 @@ pub enum ReproveError {
     NotCertified {
         /// What the file's metadata say the errors are.
         found: String,
+    },
+    /// The file does not claim a proof for this level, as where a decimator has changed the topology.
+    #[error("level {level} carries an estimate, certified are the errors up to level {last_certified}")]
+    Estimate {
+        /// The level.
+        level: u32,
+        /// The last level with a certified error.
+        last_certified: u32,
     },
     /// The error is wrong.
     #[error("level {level} states an error of {stated:e}, a point is {distance:e} away")]
@@ -71,7 +80,15 @@ impl<'a> ErrorTable<'a> {
         if found != "certified" {
             return Err(ReproveError::NotCertified { found });
         }
-        Ok(Self { lod, input: lod.at_level(0).to_mesh()? })
+        let least = metadata.provenance.certified_simplices.unwrap_or(0);
+        let n_certified = lod.curve().take_while(|point| u64::from(point.triangles) >= least).count();
+        let last_certified = u32::try_from(n_certified.saturating_sub(1)).unwrap_or(u32::MAX);
+        Ok(Self { lod, input: lod.at_level(0).to_mesh()?, last_certified })
+    }
+
+    /// The last level whose error the file calls certified.
+    pub fn last_certified(&self) -> u32 {
+        self.last_certified
     }
 
     /// Proves that no point of level `level` is farther from the input than the level's error, nor the other way round.
@@ -85,6 +102,10 @@ impl<'a> ErrorTable<'a> {
         let cut = self.lod.at_level(level);
         if cut.level() == 0 {
             return Ok(());
+        }
+        let last_certified = self.last_certified;
+        if cut.level() > last_certified {
+            return Err(ReproveError::Estimate { level: cut.level(), last_certified });
         }
         let stated = cut.error();
         // The level is what the file says; only the input was rounded on its way there.

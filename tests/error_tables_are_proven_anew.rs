@@ -8,10 +8,19 @@ mod engine;
 use engine::build_all;
 use nephrite::reprove::{ErrorTable, ReproveError};
 use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{Bound, BuildOptions, History, Lod, TriangleMesh, generate};
+use nephrite::{Bound, BuildOptions, History, Lod, Method, TriangleMesh, generate};
 use std::io::Cursor;
 
 fn file(mesh: &TriangleMesh, history: &History, bound: &str) -> Lod {
+    file_certified_to(mesh, history, bound, None)
+}
+
+fn file_certified_to(
+    mesh: &TriangleMesh,
+    history: &History,
+    bound: &str,
+    certified_simplices: Option<u64>,
+) -> Lod {
     let provenance = Provenance {
         method: "jade".into(),
         bound: bound.into(),
@@ -20,6 +29,7 @@ fn file(mesh: &TriangleMesh, history: &History, bound: &str) -> Lod {
         n_simplices_in: mesh.triangles.len() as u64,
         options: serde_json::Value::Null,
         repairs: serde_json::Value::Null,
+        certified_simplices,
         ..Provenance::default()
     };
     let mut bytes = Cursor::new(vec![]);
@@ -69,4 +79,18 @@ fn estimates_are_not_up_for_proof() {
     let lod = file(&build.mesh, &build.history, "joint");
     let refused = ErrorTable::new(&lod).map(|_| ()).unwrap_err();
     assert_eq!(refused, ReproveError::NotCertified { found: "joint".into() });
+}
+
+#[test]
+fn levels_behind_a_change_of_topology_are_not_up_for_proof() {
+    let options = BuildOptions { method: Method::Progressive, ..BuildOptions::default() };
+    let build = build_all(&generate::torus(24, 12), &options);
+    let least = build.n_certified_triangles().unwrap();
+    let lod = file_certified_to(&build.mesh, &build.history, "certified", Some(least as u64));
+    let table = ErrorTable::new(&lod).unwrap();
+    let last_certified = table.last_certified();
+    assert!(last_certified > 8 && last_certified + 1 < lod.n_levels(), "{last_certified}");
+    (1..=last_certified).for_each(|level| table.prove(level).unwrap());
+    let level = last_certified + 1;
+    assert_eq!(table.prove(level), Err(ReproveError::Estimate { level, last_certified }));
 }

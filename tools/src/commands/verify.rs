@@ -65,10 +65,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     Ok(report.of_simplices(lod.n_corners()))
 }
 
-/// Proves the errors of all levels, or of `n_wanted` levels from the second to the last; returns how many.
+/// Proves the errors of all certified levels, or of `n_wanted` from the second to the last of them; returns how many.
 fn prove_errors(lod: &Lod, n_wanted: Option<NonZeroU32>) -> Result<u32, ReproveError> {
     let table = ErrorTable::new(lod)?;
-    let last = lod.n_levels().saturating_sub(1);
+    let last = table.last_certified();
     let n_levels = n_wanted.map_or(last, NonZeroU32::get).min(last);
     let bar = progress::levels(n_levels);
     for i in 1..=n_levels {

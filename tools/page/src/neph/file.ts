@@ -15,6 +15,8 @@ export interface Metadata {
   generator?: string;
   method?: string;
   bound?: string;
+  /** Levels with fewer simplices carry an estimate, whatever the bound. */
+  certified_simplices?: number | null;
 }
 
 export class NephFile {

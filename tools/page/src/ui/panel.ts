@@ -107,6 +107,10 @@ export function showLevel(viewing: Viewing, state: State, stage: Stage): void {
     : `${share === 100 ? "all" : `${significant(share, 3)} %`} of the original's ${count(levels.counts[0])}`;
   const percent = (length: number) => (diagonal > 0 ? (100 * length) / diagonal : 0);
   output("stated", state.unit === "percent" ? `${significant(percent(error))} %` : significant(error), error);
+  // What the words promise depends on the bound, and on the level where the topology was changed.
+  const { bound, certified_simplices: leastCertified } = file.metadata;
+  const isProven = bound === "certified" && n >= (leastCertified ?? 0);
+  element("error-name").textContent = isProven ? "proven error" : "stated error";
   element("stated").title = `${significant(error, 6)} mesh units, ${significant(percent(error), 6)} % of the diagonal`;
   const pixels = stage.pixelsOf(error);
   output("on-screen", `≤ ${significant(pixels, 2)} px`, pixels);
@@ -153,8 +157,6 @@ export function showFacts(name: string, { file }: Viewing): void {
   for (const control of [select("paint").querySelector<HTMLOptionElement>("option[value=deviation]"), input("morph")]) {
     if (control) control.disabled = head.nCorners === 4;
   }
-  // What the words promise depends on the bound.
-  element("error-name").textContent = metadata.bound === "certified" ? "proven error" : "stated error";
 }
 
 /** Shows how much of the file is here. */
