@@ -12,7 +12,7 @@ mod obj;
 mod off;
 mod ply;
 mod polygon;
-mod publish;
+pub mod publish;
 mod report;
 mod stl;
 mod tetrahedra;
@@ -22,7 +22,7 @@ mod volume;
 pub use error::{MeshError, Place};
 pub use format::{MeshFormat, read_mesh, read_mesh_bytes, write_mesh, write_mesh_to};
 pub use mesh::{Attribute, ScalarType, TriangleMesh};
-pub use publish::publish;
+pub use publish::{PublishError, publish};
 pub use report::{ReadReport, Warning};
 pub use tetrahedra::TetrahedronMesh;
 pub use volume::{

@@ -3,6 +3,7 @@
 use super::compact::CompactFault;
 use crate::history::HistoryError;
 use crate::tree::{TreeError, TreeFault};
+use nephrite_formats::PublishError;
 use nephrite_formats::neph::NephError;
 use std::io;
 use std::path::PathBuf;
@@ -14,7 +15,7 @@ pub enum WriteError {
     /// The system refused.
     #[error("cannot {action} {}", path.display())]
     Io {
-        /// What was tried: `create`, `write`, `sync`, `check`, `rename`.
+        /// What was tried: `create a file in`, `write`, `sync`, `check`, `rename a file to` or `replace`.
         action: &'static str,
         /// The file concerned.
         path: PathBuf,
@@ -98,6 +99,12 @@ pub enum WriteError {
     /// The sections do not fit in a file.
     #[error("sections do not fit in a file")]
     Placement(#[from] NephError),
+}
+
+impl From<PublishError> for WriteError {
+    fn from(PublishError { action, path, source }: PublishError) -> Self {
+        Self::Io { action, path, source }
+    }
 }
 
 /// A file could not be opened.

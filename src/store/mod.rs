@@ -27,6 +27,6 @@ pub use compact::CompactFault;
 pub use error::{OpenError, VerifyError, WriteError};
 pub use metadata::{Metadata, Provenance};
 pub use opened::{AttributeView, Opened};
-pub use publish::{write, write_with};
+pub use publish::{write, write_in, write_with};
 pub use vertices::Vertices;
 pub use write::{StoreOptions, StoreReport, write_to, write_to_with};

@@ -4,18 +4,18 @@ use super::integrity::check_integrity;
 use super::{Provenance, StoreOptions, StoreReport, VerifyError, Vertices, WriteError, write_to_with};
 use crate::History;
 use nephrite_formats::neph::{Directory, MAX_HEAD_BYTES};
-use std::fs::File;
-use std::io::{self, Read};
+use nephrite_formats::publish::{Disk, Storage, publish_in};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
-use tempfile::NamedTempFile;
 
 /// Writes a file to `path`: to a temporary file beside it, which is synced, read back against its checksums, renamed into
-/// place, and the directory synced. At any moment `path` holds what it held before or the whole new file; a map of the old
-/// file stays valid.
+/// place, and the folder synced. At any moment `path` holds what it held before or the whole new file; a map of the old
+/// file stays valid. A link at `path` stays and its target is replaced. What a killed write of the same file has left is
+/// removed.
 ///
 /// # Errors
 ///
-/// [`WriteError`]; the temporary file is removed and `path` is as it was. When only the last sync of the directory fails,
+/// [`WriteError`]; the temporary file is removed and `path` is as it was. When only the last sync of the folder fails,
 /// the new file is in place and may be lost by a crash of the system.
 ///
 /// ```
@@ -66,61 +66,41 @@ pub fn write_with<'a, const CORNERS: usize>(
     options: &StoreOptions,
     operations: &[u8],
 ) -> Result<StoreReport, WriteError> {
-    let path = path.as_ref();
-    let directory = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let failed = |action, path: &Path| {
-        let path = path.to_owned();
-        move |source| WriteError::Io { action, path, source }
-    };
-    let mut temporary = create_beside(directory).map_err(failed("create a file in", directory))?;
-    let report = write_to_with(temporary.as_file_mut(), mesh, history, provenance, options, operations)
-        .map_err(|error| match error {
-            WriteError::Stream(source) => failed("write", path)(source),
-            other => other,
-        })?;
-    temporary.as_file().sync_all().map_err(failed("sync", path))?;
-    check_written(temporary.path())
-        .map_err(|source| WriteError::Damaged { path: temporary.path().to_owned(), source })?;
-    temporary.persist(path).map_err(|error| failed("rename a file to", path)(error.error))?;
-    sync_directory(directory).map_err(failed("sync", directory))?;
-    Ok(report)
+    let write = |file: &mut _| write_to_with(file, mesh, history, provenance, options, operations);
+    write_in(&Disk, path.as_ref(), write)
 }
 
-/// A temporary file in `directory` with the permissions of an ordinary new file.
-fn create_beside(directory: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".nephrite-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Less what the process's mask takes away; temporary files are private otherwise.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(directory)
+/// What [`write()`] does, on any [`Storage`], with what `write` puts into the temporary file, such as
+/// [`write_to`](super::write_to). The tests come in here with a disk that fails.
+///
+/// # Errors
+///
+/// As [`write()`].
+pub fn write_in<S: Storage, T>(
+    storage: &S,
+    path: &Path,
+    write: impl FnOnce(&mut S::File) -> Result<T, WriteError>,
+) -> Result<T, WriteError> {
+    let write = |file: &mut S::File| {
+        write(file).map_err(|error| match error {
+            WriteError::Stream(source) => WriteError::Io { action: "write", path: path.to_owned(), source },
+            other => other,
+        })
+    };
+    let check = |file: &mut S::File, temporary: &Path| {
+        let damaged = |source| WriteError::Damaged { path: temporary.to_owned(), source };
+        check_written(file).map_err(damaged)
+    };
+    publish_in(storage, path, write, check)
 }
 
 /// Reads a file just written: head and all checksums. That what was hashed has the right structure is the writer's promise
 /// and its tests'.
-fn check_written(path: &Path) -> Result<(), VerifyError> {
-    let mut file = File::open(path)?;
-    let file_bytes = file.metadata()?.len();
+fn check_written(file: &mut (impl Read + Seek)) -> Result<(), VerifyError> {
+    let file_bytes = file.seek(SeekFrom::End(0))?;
+    file.seek(SeekFrom::Start(0))?;
     let mut head = Vec::new();
-    (&mut file).take(MAX_HEAD_BYTES as u64).read_to_end(&mut head)?;
+    file.by_ref().take(MAX_HEAD_BYTES as u64).read_to_end(&mut head)?;
     let directory = Directory::read(&head, file_bytes)?;
-    check_integrity(&mut file, &directory)
-}
-
-/// Makes a rename in `directory` durable.
-#[cfg(unix)]
-fn sync_directory(directory: &Path) -> io::Result<()> {
-    File::open(directory)?.sync_all()
-}
-
-/// Other systems give no handle to sync a directory by.
-#[cfg(not(unix))]
-fn sync_directory(_directory: &Path) -> io::Result<()> {
-    Ok(())
+    check_integrity(file, &directory)
 }

@@ -5,6 +5,7 @@
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
 
 pub mod damage;
+pub mod faulty;
 pub mod synthetic;
 
 use nephrite::history::{History, Levels};
