@@ -152,8 +152,8 @@ pub enum MeshError {
         feature: String,
     },
     /// JSON that is malformed or of the wrong shape.
-    #[error("JSON: {0}")]
-    Json(#[from] serde_json::Error),
+    #[error("JSON: {}", shortened(.0))]
+    Json(serde_json::Error),
     /// A reference to another file that is refused or leads nowhere.
     #[error("{place}: reference {uri:?} {problem}")]
     Reference {
@@ -188,6 +188,13 @@ pub enum MeshError {
         /// How many the format holds.
         limit: u64,
     },
+}
+
+/// Not a source of the error: whoever shows the chain of sources would show all that the parser quotes.
+impl From<serde_json::Error> for MeshError {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Json(error)
+    }
 }
 
 impl MeshError {
@@ -256,6 +263,31 @@ pub(crate) fn excerpt(bytes: &[u8]) -> String {
     if bytes.len() > SHOWN_BYTES { format!("\"{shown}...\"") } else { format!("\"{shown}\"") }
 }
 
+/// What a parser says, which may quote as much of the file as it likes: printable, and its two ends where it is long.
+fn shortened(error: &serde_json::Error) -> String {
+    const END_CHARS: usize = 80;
+    let message: String = error.to_string().chars().flat_map(printable).collect();
+    let n_chars = message.chars().count();
+    if n_chars <= 2 * END_CHARS {
+        return message;
+    }
+    let ends = message.chars().take(END_CHARS).chain("...".chars());
+    ends.chain(message.chars().skip(n_chars - END_CHARS)).collect()
+}
+
+/// A name from a file as it can be shown in a message.
+pub(crate) fn shown_name(name: &str) -> String {
+    const SHOWN_CHARS: usize = 40;
+    let shown: String = name.chars().take(SHOWN_CHARS).flat_map(printable).collect();
+    if name.chars().nth(SHOWN_CHARS).is_some() { shown + "..." } else { shown }
+}
+
+/// A character, or what stands for one that would steer a terminal.
+fn printable(c: char) -> impl Iterator<Item = char> {
+    let (as_is, escaped) = if c.is_control() { (None, Some(c.escape_default())) } else { (Some(c), None) };
+    as_is.into_iter().chain(escaped.into_iter().flatten())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,6 +299,20 @@ mod tests {
         assert_eq!(error.to_string(), "a/b.obj: line 7: vertex index -9 is out of range (8 there)");
         assert!(matches!(error.root(), MeshError::IndexOutOfRange { .. }));
         assert_eq!(error.in_file("other").to_string().matches(": line 7").count(), 1);
+    }
+
+    #[test]
+    fn what_a_parser_quotes_is_shortened_and_printable() {
+        let text = format!("\"{}\\u001b[2J\"", "x".repeat(1 << 20));
+        let error = MeshError::from(serde_json::from_str::<u32>(&text).unwrap_err());
+        let message = error.to_string();
+        assert!(
+            message.len() < 200 && message.contains("...") && message.contains(" at line 1 column "),
+            "{message}"
+        );
+        assert!(!message.contains('\u{1b}'));
+        assert_eq!(shown_name("KHR_\n\u{1b}[2J"), "KHR_\\n\\u{1b}[2J");
+        assert_eq!(shown_name(&"x".repeat(1000)).len(), 43);
     }
 
     #[test]

@@ -8,6 +8,8 @@ use nephrite_formats::MeshError;
 
 /// Exit status of every failure but an interrupt; wrong usage has 2, which clap gives.
 const FAILED: u8 = 1;
+/// Most characters that one cause has in the line.
+const LONGEST_CLAUSE: usize = 400;
 /// Exit status of an interrupt, as shells count it: 128 and the number of SIGINT.
 pub(crate) const INTERRUPTED: u8 = 130;
 
@@ -81,7 +83,8 @@ impl Failure {
         let mut clauses = vec![self.to_string()];
         let mut cause = self.source();
         while let Some(error) = cause {
-            let clause = error.to_string();
+            // A parser may quote as much of a file as it likes.
+            let clause: String = error.to_string().chars().take(LONGEST_CLAUSE).collect();
             // Some errors show their source themselves, some name the file again.
             match clauses.last_mut() {
                 Some(last) if last.ends_with(&clause) => {}

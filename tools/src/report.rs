@@ -38,7 +38,7 @@ impl Report {
     pub(crate) fn print(&self, form: Form) -> io::Result<()> {
         let mut stdout = io::stdout().lock();
         let printed = match form {
-            Form::Text => stdout.write_all(self.text.as_bytes()),
+            Form::Text => stdout.write_all(printable(&self.text).as_bytes()),
             Form::Json if self.json.is_null() => Ok(()),
             Form::Json => writeln!(stdout, "{}", self.json),
         };
@@ -68,5 +68,21 @@ fn rename_keys(value: Value) -> Value {
 /// Writes a line to stderr, beside the results.
 pub(crate) fn note(line: &str) {
     // A note that nobody can read is not worth failing for.
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", printable(line));
+}
+
+/// Text without characters that steer a terminal: names and metadata come from files that anybody may have made.
+fn printable(text: &str) -> String {
+    let is_harmless = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
+    text.chars().map(|c| if is_harmless(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_steers_the_terminal() {
+        assert_eq!(printable("a\tb\u{1b}[2J\u{9b}c\r\n\u{e4}"), "a\tb\u{fffd}[2J\u{fffd}c\u{fffd}\n\u{e4}");
+    }
 }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::buffers::Buffers;
 use super::document::{BufferView, Document, Sparse};
 use crate::ScalarType;
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, Place, shown_name};
 
 /// A document with the bytes it refers to.
 pub(crate) struct Source<'a> {
@@ -106,7 +106,7 @@ impl<'a> Source<'a> {
         let Some(contents) = self.buffers.get(view.buffer) else {
             let compression = view.extensions.keys().find(|name| name.ends_with("meshopt_compression"));
             return Err(match compression {
-                Some(name) => MeshError::Unsupported { place, feature: name.clone() },
+                Some(name) => MeshError::Unsupported { place, feature: shown_name(name) },
                 None => MeshError::Missing { place: Place::item("buffer", view.buffer), what: "contents" },
             });
         };

@@ -12,7 +12,7 @@ use super::join::{Block, join};
 use super::primitive::{attributes, positions, triangles};
 use super::scene::{Instance, instances};
 use crate::coordinates::{Coordinates, from_f64, from_translated, nearest_f32};
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, Place, shown_name};
 use crate::{MeshFormat, ReadReport, TriangleMesh, Warning};
 
 /// Reads a glTF or GLB file; buffers in other files are looked for below `folder`.
@@ -28,7 +28,7 @@ pub(crate) fn read(
     let container = Container::open(bytes)?;
     let document: Document = serde_json::from_slice(container.json)?;
     if !document.asset.version.starts_with("2.") {
-        let feature = format!("glTF version {}", document.asset.version);
+        let feature = format!("glTF version {}", shown_name(&document.asset.version));
         return Err(MeshError::Unsupported { place: Place::File, feature });
     }
     let mut report = ReadReport::new(format);
