@@ -80,11 +80,13 @@ impl Surface {
         self.star(fewer).iter().filter(|&&slot| self.corners(slot).contains(&other)).count()
     }
 
-    /// Whether some triangle has the three corners, in any order.
-    pub fn has_triangle(&self, [a, b, c]: [u32; 3]) -> bool {
-        self.star(a).iter().any(|&slot| {
-            let corners = self.corners(slot);
-            corners.contains(&b) && corners.contains(&c)
+    /// Whether some triangle has the three corners, in any order. O(valence of the smallest star).
+    pub fn has_triangle(&self, corners: [u32; 3]) -> bool {
+        let fewest =
+            corners.map(|v| self.star(v)).into_iter().min_by_key(|star| star.len()).unwrap_or_default();
+        fewest.iter().any(|&slot| {
+            let found = self.corners(slot);
+            corners.iter().all(|v| found.contains(v))
         })
     }
 
