@@ -1,0 +1,157 @@
+//! Promise: every bad mesh file ends as `outcomes.txt` says: refused with a certain error, repaired with counted repairs, or
+//! accepted as it is; and what is not refused becomes a `.neph` file that verifies.
+//!
+//! The files in `files/` are made by the modules beside this one. After a change there,
+//! `REGENERATE=1 cargo test --test bad_meshes stated_outcome` writes them anew, and the outcomes found with them: read the difference.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small literal meshes")]
+
+mod gltf;
+mod obj;
+mod off;
+mod ply;
+mod shapes;
+mod stl;
+
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{BuildError, BuildOptions, Lod};
+use nephrite_formats::{MeshError, MeshFormat, read_mesh};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
+use std::ops::ControlFlow::Continue;
+use std::path::{Path, PathBuf};
+
+/// A file: its name and its bytes.
+type Case = (String, Vec<u8>);
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_meshes")
+}
+
+fn cases() -> BTreeMap<String, Vec<u8>> {
+    let lists = [ply::cases(), obj::cases(), stl::cases(), off::cases(), gltf::cases(), shapes::cases()];
+    let n_cases: usize = lists.iter().map(Vec::len).sum();
+    let cases: BTreeMap<_, _> = lists.into_iter().flatten().collect();
+    assert_eq!(cases.len(), n_cases, "two files of one name");
+    cases
+}
+
+/// The stated outcome of each file.
+fn outcomes() -> BTreeMap<String, String> {
+    let text = std::fs::read_to_string(folder().join("outcomes.txt")).unwrap_or_default();
+    let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let split =
+        |line: &str| line.split_once(": ").map(|(name, outcome)| (name.to_owned(), outcome.to_owned()));
+    lines.map(|line| split(line).unwrap_or_else(|| panic!("no outcome in {line:?}"))).collect()
+}
+
+/// The name of an error's variant.
+fn variant(error: &impl std::fmt::Debug) -> String {
+    format!("{error:?}").split(|c: char| !c.is_alphanumeric()).next().unwrap().to_owned()
+}
+
+/// What becomes of a file: `refused: ERROR`, or its triangles and every count of what was dropped, ignored or repaired.
+fn outcome(path: &Path) -> String {
+    let (mesh, report) = match read_mesh(path) {
+        Ok(read) => read,
+        Err(error) => {
+            assert!(matches!(error, MeshError::InFile { .. }), "{error}");
+            assert!(!error.to_string().contains('\n'), "{error}");
+            return format!("refused: {}", variant(error.root()));
+        }
+    };
+    mesh.check().unwrap();
+    let build = match nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())) {
+        Ok(build) => build,
+        Err(error @ BuildError::NoTriangles { .. }) => return format!("refused: {}", variant(&error)),
+        Err(error) => panic!("{}: {error}", path.display()),
+    };
+    let mut stream = Cursor::new(Vec::new());
+    write_to(&mut stream, &build.mesh, &build.history, &Provenance::default(), &StoreOptions::default())
+        .unwrap();
+    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
+    lod.verify().unwrap();
+    let mut counts = Vec::new();
+    for report in [serde_json::json!(report), serde_json::json!(build.repairs)] {
+        let of_number = |(key, value): (&String, &serde_json::Value)| {
+            value.as_u64().filter(|&n| n > 0).map(|n| format!("{key} {n}"))
+        };
+        counts.extend(report.as_object().unwrap().iter().filter_map(of_number));
+    }
+    counts.extend(report.warnings.iter().map(variant));
+    let triangles = format!("{} triangles", lod.at_level(0).n_triangles());
+    if counts.is_empty() {
+        format!("accepted: {triangles}")
+    } else {
+        format!("repaired: {triangles}, {}", counts.join(", "))
+    }
+}
+
+#[test]
+fn every_file_has_its_stated_outcome() {
+    let files = folder().join("files");
+    let cases = cases();
+    let found = || cases.keys().map(|name| (name.clone(), outcome(&files.join(name))));
+    if std::env::var_os("REGENERATE").is_some() {
+        std::fs::remove_dir_all(&files).unwrap();
+        std::fs::create_dir(&files).unwrap();
+        cases.iter().for_each(|(name, bytes)| std::fs::write(files.join(name), bytes).unwrap());
+        let lines: String = found().map(|(name, outcome)| format!("{name}: {outcome}\n")).collect();
+        let head = "# What becomes of each file in files/. Counts are those of the reports of reading and repair.\n\n";
+        std::fs::write(folder().join("outcomes.txt"), format!("{head}{lines}")).unwrap();
+    }
+    let stated = outcomes();
+    let wrong: Vec<_> = found().filter(|(name, outcome)| stated.get(name) != Some(outcome)).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn every_file_is_made_here_and_has_an_outcome() {
+    let cases = cases();
+    let stated: BTreeSet<String> = outcomes().into_keys().collect();
+    let generated: BTreeSet<String> = cases.keys().cloned().collect();
+    let entries = std::fs::read_dir(folder().join("files")).unwrap();
+    let there: BTreeSet<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    for (what, names) in [("an outcome", &stated), ("bytes made here", &generated)] {
+        let difference: Vec<_> = there.symmetric_difference(names).collect();
+        assert!(difference.is_empty(), "files without {what}, or the other way round: {difference:?}");
+    }
+    for (name, bytes) in &cases {
+        assert!(std::fs::read(folder().join("files").join(name)).unwrap() == *bytes, "{name} has changed");
+    }
+    assert!(there.len() >= 150, "{} files", there.len());
+    for format in MeshFormat::ALL {
+        let n_files =
+            there.iter().filter(|name| MeshFormat::from_path(name.as_ref()) == Some(format)).count();
+        assert!(n_files >= 12, "{n_files} files of {format}");
+    }
+}
+
+/// Errors of reading are stated by some file each; the others cannot be met by reading.
+#[test]
+fn every_error_of_reading_has_a_file() {
+    const OF_WRITING: [&str; 3] = ["UnknownExtension", "InconsistentMesh", "TooLargeForFormat"];
+    // A file can be refused by the system only where there is none: `a_missing_file_is_refused`.
+    const OF_THE_SYSTEM: [&str; 2] = ["InFile", "Io"];
+    let source = include_str!("../../formats/src/error.rs");
+    let body = source.split_once("pub enum MeshError {").unwrap().1.split_once("\n}\n").unwrap().0;
+    let variants = body.lines().filter_map(|line| {
+        let name = line.strip_prefix("    ")?.split(|c: char| !c.is_alphanumeric()).next()?;
+        name.starts_with(|c: char| c.is_ascii_uppercase()).then_some(name)
+    });
+    let stated: BTreeSet<String> = outcomes().into_values().collect();
+    let mut n_variants = 0;
+    for variant in variants.filter(|name| !OF_WRITING.contains(name) && !OF_THE_SYSTEM.contains(name)) {
+        assert!(stated.contains(&format!("refused: {variant}")), "no file is refused for {variant}");
+        n_variants += 1;
+    }
+    assert!(n_variants >= 13, "{n_variants}");
+}
+
+#[test]
+fn a_missing_file_is_refused() {
+    assert_eq!(outcome(&folder().join("files/none.ply")), "refused: Io");
+    assert_eq!(outcome(&folder().join("files")), "refused: Io");
+}
