@@ -104,3 +104,79 @@ fn every_two_bits_flipped_in_the_header_are_refused() {
         }
     });
 }
+
+/// What a number may be that somebody forgot to think of.
+fn boundary_values(valid: u64, size_bytes: usize) -> Vec<u64> {
+    let mut values: Vec<u64> = [7, 8, 15, 16, 23, 31, 32, 52, 62, 63]
+        .into_iter()
+        .map(|bit| 1u64 << bit)
+        .chain([0, u64::MAX, valid])
+        .flat_map(|value| [value.wrapping_sub(1), value, value.wrapping_add(1)])
+        .collect();
+    // Floats: NaN, infinities, largest, smallest, negative zero, in both precisions.
+    values.extend([f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, 5e-324, -0.0].map(f64::to_bits));
+    values.extend(
+        [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e-45, -0.0].map(|x| u64::from(x.to_bits())),
+    );
+    let mask = if size_bytes == 8 { u64::MAX } else { (1 << (8 * size_bytes)) - 1 };
+    values.iter_mut().for_each(|value| *value &= mask);
+    values.sort_unstable();
+    values.dedup();
+    values
+}
+
+/// Header, directory, attribute table and every section are taken as numbers of 2, 4 and 8 bytes, whatever their fields are:
+/// each number at each boundary value, alone.
+#[test]
+fn every_field_at_its_boundary_values_is_refused_or_harmless() {
+    let mesh = grid(4);
+    let history = decimate(&mesh, usize::MAX, 3);
+    let forms = [false, true].map(|is_compact| {
+        let options = nephrite::store::StoreOptions { is_compact, ..Default::default() };
+        support::file_bytes_with(&mesh, &history, &options)
+    });
+    for bytes in forms {
+        let seal = Seal::of(&bytes);
+        for size_bytes in [4, 8] {
+            (0..bytes.len() / size_bytes).into_par_iter().for_each(|field| {
+                let range = field * size_bytes..(field + 1) * size_bytes;
+                let mut valid = [0; 8];
+                valid[..size_bytes].copy_from_slice(&bytes[range.clone()]);
+                let mut edited = bytes.clone();
+                for value in boundary_values(u64::from_le_bytes(valid), size_bytes) {
+                    edited.copy_from_slice(&bytes);
+                    edited[range.clone()].copy_from_slice(&value.to_le_bytes()[..size_bytes]);
+                    // A number of sections that leaves the file cannot be sealed; as it is, it is refused.
+                    let n_sections: [u8; 4] = edited[12..16].try_into().unwrap();
+                    if u32::from_le_bytes(n_sections) < 100 {
+                        seal.renew(&mut edited);
+                    }
+                    open_and_use(&edited);
+                }
+            });
+        }
+    }
+}
+
+/// Whole sections are replaced by bytes of one kind, or by another section's, under right checksums.
+#[test]
+fn every_section_filled_with_anything_is_refused_or_harmless() {
+    let bytes = small_file();
+    let seal = Seal::of(&bytes);
+    let sections: Vec<_> = nephrite_formats::neph::SectionKind::ALL.map(|kind| seal.section(kind)).to_vec();
+    for &(offset, len) in &sections {
+        for fill in [0, 1, 0x7f, 0x80, 0xff] {
+            let mut edited = bytes.clone();
+            edited[offset..offset + len].fill(fill);
+            seal.renew(&mut edited);
+            open_and_use(&edited);
+        }
+        for &(other, other_len) in &sections {
+            let mut edited = bytes.clone();
+            let len = len.min(other_len);
+            edited[offset..offset + len].copy_from_slice(&bytes[other..other + len]);
+            seal.renew(&mut edited);
+            open_and_use(&edited);
+        }
+    }
+}

@@ -3,7 +3,9 @@
 use nephrite::Lod;
 use nephrite::query::QueryError;
 use nephrite::store::{OpenError, VerifyError};
-use nephrite_formats::neph::{self, Directory, HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind};
+use nephrite_formats::neph::{
+    self, Directory, HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind, SectionRecord,
+};
 
 /// Where a valid file keeps its checksums.
 pub struct Seal {
@@ -48,6 +50,42 @@ impl Seal {
     }
 }
 
+/// Makes the checksums of any bytes right where their head is good enough to find them. Returns whether it is.
+pub fn reseal(bytes: &mut [u8]) -> bool {
+    let Some(head) = bytes.get(..HEADER_BYTES) else { return false };
+    let header: Header = bytemuck::pod_read_unaligned(head);
+    let Some(directory) =
+        bytes.get(HEADER_BYTES..HEADER_BYTES + SECTION_RECORD_BYTES * header.n_sections.min(600) as usize)
+    else {
+        return false;
+    };
+    let records: Vec<SectionRecord> = bytemuck::pod_collect_to_vec(directory);
+    let file_bytes = bytes.len() as u64;
+    let body_start = neph::align((HEADER_BYTES + directory.len()) as u64);
+    edit_header(bytes, |header| {
+        header.magic = neph::MAGIC;
+        header.version = neph::VERSION;
+        header.file_bytes = file_bytes;
+    });
+    if let Some(checksums) = records.last().filter(|record| record.kind == SectionKind::Checksums.code()) {
+        let in_body = usize::try_from(body_start).ok().zip(usize::try_from(checksums.offset).ok());
+        let body = in_body.and_then(|(start, end)| bytes.get(start..end));
+        let chunk_bytes = usize::try_from(header.chunk_bytes).unwrap_or(0).max(1 << 12);
+        let sums: Vec<u64> = body.unwrap_or(&[]).chunks(chunk_bytes).map(neph::checksum).collect();
+        let sums: &[u8] = bytemuck::cast_slice(&sums);
+        let place = usize::try_from(checksums.offset).ok();
+        if let Some(target) =
+            place.and_then(|start| bytes.get_mut(start..)).and_then(|rest| rest.get_mut(..sums.len()))
+        {
+            target.copy_from_slice(sums);
+            edit_header(bytes, |header| header.checksums_checksum = neph::checksum(sums));
+        }
+    }
+    let directory = bytes[HEADER_BYTES..][..records.len() * SECTION_RECORD_BYTES].to_vec();
+    edit_header(bytes, |header| header.head_checksum = neph::head_checksum(header, &directory));
+    true
+}
+
 /// Changes the header in place.
 pub fn edit_header(bytes: &mut [u8], edit: impl FnOnce(&mut Header)) {
     let mut header: Header = bytemuck::pod_read_unaligned(&bytes[..HEADER_BYTES]);
@@ -84,7 +122,10 @@ pub fn open_and_use(bytes: &[u8]) -> Outcome {
         }
         let n_indices = cut.extract_into(&mut buffer).unwrap();
         assert!(n_indices == cut.n_indices() && n_indices <= buffer.len());
-        assert!(cut.vertices().len() == cut.vertex_count() && cut.error().to_bits() < u64::MAX);
+        assert!(
+            cut.vertices().len() == cut.vertex_count()
+                && cut.error().to_bits() == lod.errors()[cut.level() as usize].to_bits()
+        );
         assert!(cut.n_vertices() <= cut.vertex_count());
         match cut.to_mesh() {
             Ok(mesh) => {
