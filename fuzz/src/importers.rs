@@ -1,0 +1,27 @@
+//! Mesh files of any bytes.
+
+use nephrite_formats::{MeshFormat, read_mesh_bytes, write_mesh_to};
+
+/// Reads bytes as a mesh file: a mesh that holds together and can be written, or an error of one line.
+///
+/// # Panics
+///
+/// When it is neither.
+pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
+    let detected = MeshFormat::detect(bytes, Some(format));
+    assert!(detected.is_some());
+    match read_mesh_bytes(bytes, format) {
+        Ok((mesh, report)) => {
+            mesh.check().unwrap();
+            assert!(!mesh.triangles.is_empty() && mesh.rounding.is_finite() && report.format == format);
+            let mut written = Vec::new();
+            write_mesh_to(&mut written, &mesh, MeshFormat::Ply).unwrap();
+            let (again, _) = read_mesh_bytes(&written, MeshFormat::Ply).unwrap();
+            assert_eq!(again.triangles, mesh.triangles);
+        }
+        Err(error) => {
+            let message = error.to_string();
+            assert!(!message.is_empty() && !message.contains('\n') && message.len() < 400, "{message}");
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Fuzz targets: functions from bytes to nothing, which panic where a promise is broken.
+//!
+//! Under `cargo test` each runs for a second on random bytes, and on every input that was ever a find. `fuzz/run` lets
+//! libFuzzer search for inputs with the coverage of the code as its guide; its last results are in `fuzz/RESULTS.md`.
+#![cfg(test)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a broken promise ends the run")]
+
+#[path = "../../tests/support/damage.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small files")]
+mod damage;
+mod importers;
+mod neph;
+mod script;
+mod soup;
+#[path = "../../tests/support/synthetic.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
+mod synthetic;
+mod targets;

@@ -1,0 +1,140 @@
+//! Triangles of any kind made into a file, and histories of any kind.
+
+use crate::script::Script;
+use nephrite::history::{History, NEVER};
+use nephrite::store::{Provenance, StoreOptions, WriteError, write_to};
+use nephrite::{Attribute, Bound, BuildError, BuildOptions, Lod, ScalarType, TriangleMesh};
+use std::io::Cursor;
+use std::ops::ControlFlow::Continue;
+
+/// Most vertices and triangles of a soup: a build stays below a millisecond or two.
+const MAX_VERTICES: usize = 40;
+const MAX_TRIANGLES: usize = 80;
+
+/// Builds all levels of triangles that know nothing of surfaces, writes them, and opens, verifies and uses the file.
+///
+/// The script: bound and scale, vertices on a small lattice so that they often coincide, triangles until it ends.
+///
+/// # Panics
+///
+/// When the build fails for another reason than that nothing is left of the triangles, or its file does not verify.
+pub(crate) fn build_soup(script: &[u8]) {
+    let mut script = Script::new(script);
+    let options = BuildOptions {
+        bound: [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated][script.below(4)],
+        max_error: [None, Some(0.1), Some(5.0)][script.below(3)],
+        feature_angle_degrees: [60.0, 0.0, 180.0][script.below(3)],
+        ..BuildOptions::default()
+    };
+    let mesh = soup(&mut script);
+    let build = match nephrite::build(&mesh, &options, &|_| Continue(())) {
+        Ok(build) => build,
+        Err(BuildError::NoTriangles { .. }) => return,
+        Err(error) => panic!("{error}"),
+    };
+    let bytes = written(&build.mesh, &build.history).unwrap();
+    check_file(&bytes, build.mesh.triangles.len());
+}
+
+fn soup(script: &mut Script<'_>) -> TriangleMesh {
+    let scale = [1.0, 1e-30, 1e-40, 1e30, 1e-3][script.below(5)];
+    let has_attribute = script.u8().is_multiple_of(4);
+    let n_vertices = 3 + script.below(MAX_VERTICES - 2);
+    let positions: Vec<[f32; 3]> = (0..n_vertices)
+        .map(|_| std::array::from_fn(|_| (f32::from(script.u8()) - 128.0) * 0.25 * scale))
+        .collect();
+    let mut triangles = Vec::new();
+    while !script.is_empty() && triangles.len() < MAX_TRIANGLES {
+        triangles.push(std::array::from_fn(|_| u32::from(script.u8()) % u32::from(small(n_vertices))));
+    }
+    let color = Attribute {
+        name: "color".into(),
+        scalar: ScalarType::U8,
+        n_components: 1,
+        bytes: (0..n_vertices).map(|v| u8::from(v % 3 == 0)).collect(),
+    };
+    let attributes = if has_attribute { vec![color] } else { Vec::new() };
+    TriangleMesh { positions, triangles, attributes, ..TriangleMesh::default() }
+}
+
+/// Writes a history of any kind: refused with an error, or a file that verifies.
+///
+/// The script: steps, deaths and births of vertices, then lifetimes until it ends.
+///
+/// # Panics
+///
+/// When a file is written that does not verify.
+pub(crate) fn write_history(script: &[u8]) {
+    let mut script = Script::new(script);
+    let options = StoreOptions {
+        levels: [None, Some(1), Some(3), Some(0)][script.below(4)],
+        window_levels: [None, Some(1), Some(2), Some(5)][script.below(4)],
+        is_compact: script.u8() % 2 == 1,
+    };
+    let n_steps = script.below(12);
+    let stamp = |script: &mut Script<'_>| match script.u8() {
+        255 => NEVER,
+        // Mostly steps there are.
+        stamp => u32::from(stamp) % (u32::from(small(n_steps)) + 2),
+    };
+    let n_vertices = 1 + script.below(10);
+    let mut history = History::<3>::default();
+    let mut error = 0.0;
+    for _ in 0..=n_steps {
+        error += f64::from(script.u8()) - f64::from(u8::from(script.u8() == 77));
+        history.errors.push(error);
+    }
+    history.vertex_death = (0..n_vertices).map(|_| stamp(&mut script)).collect();
+    if script.u8() % 2 == 1 {
+        history.vertex_birth = (0..n_vertices).map(|_| stamp(&mut script)).collect();
+    }
+    while !script.is_empty() && history.simplices.len() < 60 {
+        history
+            .simplices
+            .push(std::array::from_fn(|_| u32::from(script.u8()) % u32::from(small(n_vertices))));
+        history.birth.push(stamp(&mut script));
+        history.death.push(stamp(&mut script));
+    }
+    let mesh = TriangleMesh {
+        positions: (0..n_vertices).map(|v| [f32::from(small(v)), 1.0, 0.5]).collect(),
+        ..TriangleMesh::default()
+    };
+    let mut stream = Cursor::new(Vec::new());
+    match write_to(&mut stream, &mesh, &history, &Provenance::default(), &options) {
+        Ok(report) => {
+            let lod = check_file(stream.get_ref(), report_len(&history));
+            assert_eq!(lod.n_levels(), report.n_levels);
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// Simplices alive at step 0.
+fn report_len(history: &History<3>) -> usize {
+    history.birth.iter().filter(|&&birth| birth == 0).count()
+}
+
+fn written(mesh: &TriangleMesh, history: &History<3>) -> Result<Vec<u8>, WriteError> {
+    let mut stream = Cursor::new(Vec::new());
+    write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions::default())?;
+    Ok(stream.into_inner())
+}
+
+/// A file that must verify, with so many triangles at level 0, none of its levels larger than the one before.
+fn check_file(bytes: &[u8], n_triangles: usize) -> Lod {
+    let lod = Lod::from_bytes(bytes).unwrap();
+    lod.verify().unwrap();
+    assert_eq!(lod.at_level(0).n_triangles(), n_triangles);
+    let mut before = usize::MAX;
+    for level in 0..lod.n_levels() {
+        let mesh = lod.at_level(level).to_mesh().unwrap();
+        assert!(mesh.triangles.len() <= before);
+        before = mesh.triangles.len();
+    }
+    lod
+}
+
+/// Counts of a soup fit a byte.
+fn small(count: usize) -> u8 {
+    u8::try_from(count).unwrap()
+}

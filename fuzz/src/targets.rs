@@ -1,0 +1,78 @@
+//! Every fuzz target as a test.
+
+use crate::{importers, neph, soup};
+use bolero::check;
+use cap::Cap;
+use nephrite_formats::MeshFormat;
+use std::alloc::System;
+
+/// No input of a few kilobytes may ask for more, all targets at once; a refused allocation ends the process.
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, 512 << 20);
+
+#[test]
+fn open_and_use() {
+    on_this_thread();
+    check!().for_each(neph::open_and_use);
+}
+
+#[test]
+fn query_sequences() {
+    on_this_thread();
+    check!().for_each(neph::query_edited);
+}
+
+#[test]
+fn read_ply() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Ply));
+}
+
+#[test]
+fn read_obj() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Obj));
+}
+
+#[test]
+fn read_stl() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Stl));
+}
+
+#[test]
+fn read_off() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Off));
+}
+
+#[test]
+fn read_gltf() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Gltf));
+}
+
+#[test]
+fn read_glb() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Glb));
+}
+
+#[test]
+fn build_soup() {
+    on_this_thread();
+    check!().for_each(soup::build_soup);
+}
+
+#[test]
+fn write_history() {
+    on_this_thread();
+    check!().for_each(soup::write_history);
+}
+
+/// Tasks this small are not worth handing to other threads.
+fn on_this_thread() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    // The pool of a thread ends with it.
+    std::mem::forget(pool);
+}
