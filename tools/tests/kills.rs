@@ -1,0 +1,61 @@
+//! A build that is killed at any moment leaves the old file or the new one under its name, and what it leaves beside it is gone
+//! after the next build.
+#![cfg(unix)]
+#![allow(clippy::expect_used, clippy::cast_possible_truncation, reason = "a panic is how a test fails")]
+
+mod support;
+
+use std::collections::hash_map::RandomState;
+use std::hash::BuildHasher;
+use std::process::Stdio;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use support::Workplace;
+
+/// Kills in the usual run; `NEPHRITE_KILLS=1000` for a long one.
+const N_KILLS: usize = 40;
+
+#[test]
+fn killed_builds_leave_the_old_file_or_the_new_one() {
+    let n_kills = std::env::var("NEPHRITE_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(N_KILLS);
+    let place = Workplace::new();
+    place.done("generate sphere --triangles 3000 -o in.ply");
+    let options = ["--levels 5", "--levels 50"];
+    let start = Instant::now();
+    let whole = options.map(|options| {
+        place.done(&format!("build in.ply -o out.neph {options}"));
+        place.read("out.neph")
+    });
+    let duration_us = start.elapsed().as_micros() as u64 / 2;
+    let (mut holds, mut n_published, mut n_left) = (1, 0, 0);
+    for kill in 0..n_kills {
+        let next = 1 - holds;
+        let line = format!("build in.ply -o out.neph {}", options[next]);
+        let mut build = place
+            .command(line.split_whitespace())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        // Half of the kills meet the last fifth, in which the file is written.
+        let random = RandomState::new().hash_one(kill);
+        let (earliest, length) =
+            if kill % 2 == 0 { (0, duration_us) } else { (duration_us * 4 / 5, duration_us / 4) };
+        thread::sleep(Duration::from_micros(earliest + random % length));
+        build.kill().expect("a process of our own");
+        build.wait().expect("it ends");
+        let found = place.read("out.neph");
+        let held = whole.iter().position(|whole| *whole == found);
+        assert!(held.is_some(), "kill {kill}: {} bytes are neither file", found.len());
+        n_published += usize::from(held == Some(next));
+        n_left += usize::from(place.files().len() > 2);
+        holds = held.unwrap_or(holds);
+    }
+    println!(
+        "{n_kills} kills: {n_published} after the new file was in place, {n_left} left something beside it"
+    );
+    place.done("build in.ply -o out.neph");
+    assert_eq!(place.files(), ["in.ply", "out.neph"]);
+    place.done("verify out.neph");
+}
