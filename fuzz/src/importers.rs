@@ -1,6 +1,8 @@
 //! Mesh files of any bytes.
 
-use nephrite_formats::{MeshFormat, read_mesh_bytes, write_mesh_to};
+use nephrite_formats::{
+    MeshFormat, VolumeFormat, read_mesh_bytes, read_volume_bytes, write_mesh_to, write_volume_to,
+};
 
 /// Reads bytes as a mesh file: a mesh that holds together and can be written, or an error of one line.
 ///
@@ -18,6 +20,25 @@ pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
             write_mesh_to(&mut written, &mesh, MeshFormat::Ply).unwrap();
             let (again, _) = read_mesh_bytes(&written, MeshFormat::Ply).unwrap();
             assert_eq!(again.triangles, mesh.triangles);
+        }
+        Err(error) => {
+            let message = error.to_string();
+            assert!(!message.is_empty() && !message.contains('\n') && message.len() < 400, "{message}");
+        }
+    }
+}
+
+/// Reads bytes as a volume file: as [`read_mesh`] does.
+///
+/// # Panics
+///
+/// When it is neither a volume that holds together nor an error of one line.
+pub(crate) fn read_volume(bytes: &[u8], format: VolumeFormat) {
+    match read_volume_bytes(bytes, format) {
+        Ok((mesh, _)) => {
+            mesh.check().unwrap();
+            assert!(!mesh.tetrahedra.is_empty() && mesh.rounding.is_finite());
+            write_volume_to(&mut Vec::new(), &mesh, VolumeFormat::Vtu).unwrap();
         }
         Err(error) => {
             let message = error.to_string();

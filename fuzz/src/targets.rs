@@ -3,7 +3,7 @@
 use crate::{importers, neph, soup};
 use bolero::check;
 use cap::Cap;
-use nephrite_formats::MeshFormat;
+use nephrite_formats::{MeshFormat, VolumeFormat};
 use std::alloc::System;
 
 /// No input of a few kilobytes may ask for more, all targets at once; a refused allocation ends the process.
@@ -56,6 +56,36 @@ fn read_gltf() {
 fn read_glb() {
     on_this_thread();
     check!().for_each(|bytes: &[u8]| importers::read_mesh(bytes, MeshFormat::Glb));
+}
+
+#[test]
+fn read_vtu() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Vtu));
+}
+
+#[test]
+fn read_vtk() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Vtk));
+}
+
+#[test]
+fn read_gmsh() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Gmsh));
+}
+
+#[test]
+fn read_medit() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Medit));
+}
+
+#[test]
+fn read_plot3d() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Plot3d));
 }
 
 #[test]

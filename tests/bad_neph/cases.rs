@@ -4,6 +4,7 @@ use super::support::damage::{Seal, edit_header, reseal};
 use super::support::file_bytes_with;
 use super::support::synthetic::{decimate, grid, succeed};
 use bytemuck::Pod;
+use nephrite::history::Deviation;
 use nephrite::store::StoreOptions;
 use nephrite_formats::neph::{
     AttributeRecord, CHUNK_BYTES, HEADER_BYTES, Header, REQUIRED, SECTION_RECORD_BYTES, SectionKind,
@@ -38,6 +39,14 @@ impl Valid {
         let mut mesh = grid(4);
         let mut history = decimate(&mesh, usize::MAX, 3);
         succeed(&mut mesh, &mut history, 5);
+        Self::new(file_bytes_with(&mesh, &history, &StoreOptions::default()))
+    }
+
+    fn with_deviations() -> Self {
+        let mesh = grid(4);
+        let mut history = decimate(&mesh, usize::MAX, 3);
+        let values = (0..history.errors.len()).map(|step| step as f64).collect();
+        history.deviations = vec![Deviation { name: "height".into(), values }];
         Self::new(file_bytes_with(&mesh, &history, &StoreOptions::default()))
     }
 
@@ -412,6 +421,29 @@ fn one_run_more() -> Vec<u8> {
 }
 
 fn others() -> Cases {
+    let deviations = Valid::with_deviations();
+    let mut cases = compact();
+    cases.extend([
+        ("valid-with-deviations", deviations.bytes.clone()),
+        ("deviations-falling", deviations.section::<f64>(SectionKind::Deviations, |d| d[0] = 1e9)),
+        ("deviations-nan", deviations.section::<f64>(SectionKind::Deviations, |d| d[1] = f64::NAN)),
+        (
+            "deviations-without-name",
+            deviations.section::<u8>(SectionKind::DeviationNames, |names| names.fill(0)),
+        ),
+        (
+            "deviations-name-without-end",
+            deviations.section::<u8>(SectionKind::DeviationNames, |names| names.fill(b'x')),
+        ),
+        (
+            "deviations-name-not-utf-8",
+            deviations.section::<u8>(SectionKind::DeviationNames, |names| names[0] = 0xff),
+        ),
+    ]);
+    cases
+}
+
+fn compact() -> Cases {
     let compact = Valid::compact();
     vec![
         ("compact-repeats-all", compact.section::<u64>(SectionKind::RepeatBits, |bits| bits.fill(u64::MAX))),
