@@ -3,7 +3,7 @@
 //! Writing in place leaves half a file after a full disk or an interrupt, and has already lost the old one. Here the bytes go
 //! to a temporary file in the same folder, reach the disk, are looked at once more, and take the name by one rename; a
 //! failure removes them. A process that is killed can remove nothing: what it leaves is removed by the next write of the
-//! same output (see [`leftovers`]).
+//! same output.
 //!
 //! Whatever is done to the disk goes through [`Storage`], so that tests can make every single operation fail.
 
