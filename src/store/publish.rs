@@ -66,8 +66,7 @@ pub fn write_with<'a, const CORNERS: usize>(
     options: &StoreOptions,
     operations: &[u8],
 ) -> Result<StoreReport, WriteError> {
-    let write = |file: &mut _| write_to_with(file, mesh, history, provenance, options, operations);
-    write_in(&Disk, path.as_ref(), write)
+    write_in(&Disk, path.as_ref(), |file| write_to_with(file, mesh, history, provenance, options, operations))
 }
 
 /// What [`write()`] does, on any [`Storage`], with what `write` puts into the temporary file, such as
