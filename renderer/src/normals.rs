@@ -92,6 +92,7 @@ mod tests {
             vertex_birth: vec![0, 0, 0, 0, 1],
             vertex_death: vec![NEVER, NEVER, 1, 1, NEVER],
             errors: vec![0.0, 1.0],
+            ..History::default()
         };
         let lod = crate::builtin::stored(&mesh, &history).unwrap();
         assert_eq!((lod.n_levels(), lod.vertices().len()), (2, 5));
