@@ -15,22 +15,7 @@ impl Attribute {
 
     /// All components of all vertices as numbers; exact for every type.
     pub fn values(&self) -> impl Iterator<Item = f64> {
-        let size_bytes = self.scalar.size_bytes();
-        self.bytes.chunks_exact(size_bytes).map(move |bytes| {
-            let mut wide = [0; 8];
-            wide[..size_bytes].copy_from_slice(bytes);
-            let [a, b, c, d, ..] = wide;
-            match self.scalar {
-                ScalarType::I8 => i8::from_le_bytes([a]).into(),
-                ScalarType::U8 => a.into(),
-                ScalarType::I16 => i16::from_le_bytes([a, b]).into(),
-                ScalarType::U16 => u16::from_le_bytes([a, b]).into(),
-                ScalarType::I32 => i32::from_le_bytes([a, b, c, d]).into(),
-                ScalarType::U32 => u32::from_le_bytes([a, b, c, d]).into(),
-                ScalarType::F32 => f32::from_le_bytes([a, b, c, d]).into(),
-                ScalarType::F64 => f64::from_le_bytes(wide),
-            }
-        })
+        self.bytes.chunks_exact(self.scalar.size_bytes()).map(|bytes| self.scalar.number(bytes))
     }
 
     /// An attribute from numbers, each made the nearest value of the type; `NaN` becomes zero in integers.

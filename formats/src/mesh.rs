@@ -158,4 +158,21 @@ impl ScalarType {
             Self::F64 => 8,
         }
     }
+
+    /// A little-endian value as a number, exact for every type. `bytes` has [`size_bytes`](Self::size_bytes) of them.
+    pub(crate) fn number(self, bytes: &[u8]) -> f64 {
+        let mut wide = [0; 8];
+        wide[..bytes.len()].copy_from_slice(bytes);
+        let [a, b, c, d, ..] = wide;
+        match self {
+            Self::I8 => i8::from_le_bytes([a]).into(),
+            Self::U8 => a.into(),
+            Self::I16 => i16::from_le_bytes([a, b]).into(),
+            Self::U16 => u16::from_le_bytes([a, b]).into(),
+            Self::I32 => i32::from_le_bytes([a, b, c, d]).into(),
+            Self::U32 => u32::from_le_bytes([a, b, c, d]).into(),
+            Self::F32 => f32::from_le_bytes([a, b, c, d]).into(),
+            Self::F64 => f64::from_le_bytes(wide),
+        }
+    }
 }

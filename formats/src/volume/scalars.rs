@@ -110,21 +110,10 @@ fn wide(bytes: &[u8]) -> [u8; 8] {
 
 #[expect(clippy::cast_precision_loss, reason = "64-bit integers are rounded, as said")]
 fn number_at(number: NumberType, bytes: &[u8]) -> f64 {
-    let wide = wide(bytes);
-    let [a, b, c, d, ..] = wide;
     match number {
-        NumberType::I64 => i64::from_le_bytes(wide) as f64,
-        NumberType::U64 => u64::from_le_bytes(wide) as f64,
-        NumberType::Kept(scalar) => match scalar {
-            ScalarType::I8 => i8::from_le_bytes([a]).into(),
-            ScalarType::U8 => a.into(),
-            ScalarType::I16 => i16::from_le_bytes([a, b]).into(),
-            ScalarType::U16 => u16::from_le_bytes([a, b]).into(),
-            ScalarType::I32 => i32::from_le_bytes([a, b, c, d]).into(),
-            ScalarType::U32 => u32::from_le_bytes([a, b, c, d]).into(),
-            ScalarType::F32 => f32::from_le_bytes([a, b, c, d]).into(),
-            ScalarType::F64 => f64::from_le_bytes(wide),
-        },
+        NumberType::I64 => i64::from_le_bytes(wide(bytes)) as f64,
+        NumberType::U64 => u64::from_le_bytes(wide(bytes)) as f64,
+        NumberType::Kept(scalar) => scalar.number(bytes),
     }
 }
 
