@@ -7,7 +7,7 @@
 //!     \    v     \                  a boundary vertex: the ring is a chain, the edge last-first will be new
 //! ```
 
-use super::Surface;
+use super::{Surface, facing_edge};
 use crate::geometry::vector::{Vector, add, cross, sub};
 
 /// Stars of more triangles are left alone until their neighbours have gone; also what a `u8` ring index must hold.
@@ -62,14 +62,7 @@ impl Hole {
         self.slots.clear();
         self.spokes.clear();
         self.spokes.extend(star.iter().map(|&slot| {
-            let [a, b, c] = surface.corners(slot);
-            let (from, to) = if a == v {
-                (b, c)
-            } else if b == v {
-                (c, a)
-            } else {
-                (a, b)
-            };
+            let (from, to) = facing_edge(surface.corners(slot), v);
             Spoke { from, to, slot }
         }));
         self.order()?;

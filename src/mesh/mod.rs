@@ -17,7 +17,7 @@ pub use filling::Filling;
 pub use hole::{Hole, MAX_VALENCE, NoHole};
 pub use repair::{RepairReport, Repaired, repair};
 pub use seams::Seams;
-pub use stars::Stars;
+pub use stars::{Stars, facing_edge};
 pub use surface::Surface;
 pub use tetra_repair::{TetrahedronRepairReport, repair_tetrahedra};
 pub use tetrahedra::{FACES, Tetrahedra, boundary_triangles};

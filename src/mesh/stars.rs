@@ -21,6 +21,18 @@ struct List {
 /// Room left in each list at the start: a removal can add a triangle to a neighbour's star before it takes others away.
 const SPARE: u32 = 1;
 
+/// The edge of a triangle that faces its corner `v`, in the triangle's orientation.
+#[inline]
+pub fn facing_edge([a, b, c]: [u32; 3], v: u32) -> (u32, u32) {
+    if a == v {
+        (b, c)
+    } else if b == v {
+        (c, a)
+    } else {
+        (a, b)
+    }
+}
+
 impl Stars {
     /// Stars of `n_vertices` vertices in `triangles`, each list in ascending order. O(n).
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {

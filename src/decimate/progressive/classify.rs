@@ -8,6 +8,7 @@ use super::error::{AveragePlane, spoke};
 use super::ring::{Ring, Shape};
 use super::wedges::Wedges;
 use crate::geometry::vector::{Vector, dot};
+use crate::mesh::facing_edge;
 
 /// The classes; the first is for a vertex that has gone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,14 +93,7 @@ impl Geometry {
 
     fn add_loose_triangles(&mut self, complex: &Complex, ring: &Ring) {
         for &slot in &ring.slots {
-            let [a, b, c] = complex.corners(slot);
-            let (from, to) = if a == ring.center {
-                (b, c)
-            } else if b == ring.center {
-                (c, a)
-            } else {
-                (a, b)
-            };
+            let (from, to) = facing_edge(complex.corners(slot), ring.center);
             let ends = [from, to].map(|v| spoke(self.apex, complex.point(v)));
             self.normals.push(self.plane.add(ends[0], ends[1]));
         }

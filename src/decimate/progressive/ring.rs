@@ -5,6 +5,7 @@
 
 use super::complex::Complex;
 use crate::geometry::vector::Vector;
+use crate::mesh::facing_edge;
 
 /// Stars of at most this many triangles are chained by trial.
 const FEW: usize = 24;
@@ -56,14 +57,7 @@ impl Ring {
         self.fan_starts.clear();
         self.spokes.clear();
         self.spokes.extend(complex.star(v).iter().map(|&slot| {
-            let [a, b, c] = complex.corners(slot);
-            let (from, to) = if a == v {
-                (b, c)
-            } else if b == v {
-                (c, a)
-            } else {
-                (a, b)
-            };
+            let (from, to) = facing_edge(complex.corners(slot), v);
             Spoke { from, to, slot }
         }));
         self.shape = if self.spokes.is_empty() {
