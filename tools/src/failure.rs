@@ -4,6 +4,7 @@ use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use nephrite::BuildError;
 use nephrite_formats::MeshError;
 
 /// Exit status of every failure but an interrupt; wrong usage has 2, which clap gives.
@@ -71,6 +72,14 @@ impl Failure {
     /// A failure that concerns one file.
     pub(crate) fn file(path: impl AsRef<Path>, source: impl Error + Send + Sync + 'static) -> Self {
         Self::File { path: path.as_ref().to_owned(), source: Box::new(source) }
+    }
+
+    /// A build that failed, or that somebody stopped.
+    pub(crate) fn build(path: impl AsRef<Path>, source: BuildError) -> Self {
+        match source {
+            BuildError::Interrupted => Self::Interrupted,
+            source => Self::file(path, source),
+        }
     }
 
     /// A failure of the system at something that is no file.

@@ -8,7 +8,7 @@ use nephrite::decimate::jade::JadeOptions;
 use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::progressive_mesh::encode;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
-use nephrite::{Bound, Build, BuildError, BuildOptions, Method, TriangleMesh};
+use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh};
 use nephrite_formats::ReadReport;
 use serde_json::{Value, json};
 
@@ -172,7 +172,12 @@ impl From<BoundName> for Bound {
     }
 }
 
-fn number(text: &str, expected: &'static str, holds: impl Fn(f64) -> bool) -> Result<f64, &'static str> {
+/// A finite number of which something holds.
+pub(super) fn number(
+    text: &str,
+    expected: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<f64, &'static str> {
     text.parse().ok().filter(|&value: &f64| value.is_finite() && holds(value)).ok_or(expected)
 }
 
@@ -192,7 +197,8 @@ fn from_one_to_sixteen(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a number from 1 to 16", |value| (1.0..=16.0).contains(&value))
 }
 
-fn part(text: &str) -> Result<f64, &'static str> {
+/// A part of a whole.
+pub(super) fn part(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a number from 0 to 1", |value| (0.0..=1.0).contains(&value))
 }
 
@@ -235,9 +241,7 @@ impl Arguments {
             progressive: ProgressiveOptions { reduction, pre_split },
         }
     }
-}
 
-impl Arguments {
     pub(super) fn stored(&self) -> StoreOptions {
         StoreOptions { levels: self.levels, window_levels: self.window_levels, is_compact: self.compact }
     }
@@ -281,10 +285,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
 fn decimate(arguments: &Arguments, mesh: &TriangleMesh, bounding_diagonal: f64) -> Result<Build, Failure> {
     let bar = BuildBar::new(bounding_diagonal);
     let options = arguments.options(bounding_diagonal);
-    nephrite::build(mesh, &options, &|progress| bar.observe(progress)).map_err(|source| match source {
-        BuildError::Interrupted => Failure::Interrupted,
-        source => Failure::file(&arguments.mesh, source),
-    })
+    nephrite::build(mesh, &options, &|progress| bar.observe(progress))
+        .map_err(|source| Failure::build(&arguments.mesh, source))
 }
 
 /// Publishes the file, with all that a reader may want to know of its making.

@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use nephrite::decimate::fusion::FusionOptions;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
-use nephrite::{BuildError, TetrahedronMesh, VolumeBuild, VolumeOptions};
+use nephrite::{TetrahedronMesh, VolumeBuild, VolumeOptions};
 use nephrite_formats::VolumeReport;
 use serde_json::{Value, json};
 
+use super::build::{number, part};
 use crate::failure::Failure;
 use crate::length::Length;
 use crate::progress::BuildBar;
@@ -35,13 +36,7 @@ pub(super) struct FusionArguments {
 }
 
 fn not_negative(text: &str) -> Result<f64, &'static str> {
-    let value: Option<f64> = text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
-    value.ok_or("expected a number that is not negative")
-}
-
-fn part(text: &str) -> Result<f64, &'static str> {
-    let value: Option<f64> = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
-    value.ok_or("expected a number from 0 to 1")
+    number(text, "expected a number that is not negative", |value| value >= 0.0)
 }
 
 /// What the command is asked for.
@@ -113,10 +108,7 @@ impl Request<'_> {
             }
             bar.observe(progress)
         });
-        build.map_err(|source| match source {
-            BuildError::Interrupted => Failure::Interrupted,
-            source => Failure::file(self.input, source),
-        })
+        build.map_err(|source| Failure::build(self.input, source))
     }
 }
 

@@ -12,7 +12,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use nephrite::BuildError;
 use nephrite_formats::{MeshFormat, neph};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -169,11 +168,8 @@ fn build_one(arguments: &Arguments) -> Result<Value, Failure> {
     let go_on = |_: &nephrite::Progress| {
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let build =
-        nephrite::build(&mesh, &arguments.options(diagonal), &go_on).map_err(|source| match source {
-            BuildError::Interrupted => Failure::Interrupted,
-            source => Failure::file(arguments.mesh(), source),
-        })?;
+    let build = nephrite::build(&mesh, &arguments.options(diagonal), &go_on)
+        .map_err(|source| Failure::build(arguments.mesh(), source))?;
     let stored = write(arguments, &mesh, &build, diagonal)?;
     let lod = files::open_lod(arguments.output())?;
     let n_points = lod.curve().len();
@@ -204,8 +200,7 @@ fn append(manifest: &Mutex<File>, line: &Line) {
 
 /// Puts a manifest in order of parts, one line each, in the place of the one that grew.
 fn replace_manifest(folder: &Path, lines: &[Line]) -> Result<(), Failure> {
-    let (path, beside) = (folder.join(MANIFEST), folder.join(".manifest.jsonl.tmp"));
-    let text: String = lines.iter().flat_map(|line| [line.text.as_str(), "\n"]).collect();
-    let replaced = fs::write(&beside, text).and_then(|()| fs::rename(&beside, &path));
-    replaced.map_err(|source| Failure::file(path, source))
+    let path = folder.join(MANIFEST);
+    nephrite_formats::publish(&path, |out| lines.iter().try_for_each(|line| writeln!(out, "{}", line.text)))
+        .map_err(|source| Failure::file(&path, source))
 }

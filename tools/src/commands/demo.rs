@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use nephrite::history::History;
 use nephrite::store::{self, Provenance, StoreOptions};
-use nephrite::{Build, BuildError, BuildOptions, Cut, Lod, generate};
+use nephrite::{Build, BuildOptions, Cut, Lod, generate};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
@@ -69,12 +69,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
 fn build() -> Result<Build, Failure> {
     let mesh = generate::cosine(SIDE);
     let bar = BuildBar::new(nephrite::bounding_diagonal(&mesh));
-    nephrite::build(&mesh, &BuildOptions::default(), &|progress| bar.observe(progress)).map_err(|source| {
-        match source {
-            BuildError::Interrupted => Failure::Interrupted,
-            source => Failure::file("the built-in surface", source),
-        }
-    })
+    nephrite::build(&mesh, &BuildOptions::default(), &|progress| bar.observe(progress))
+        .map_err(|source| Failure::build("the built-in surface", source))
 }
 
 fn write(file: &Path, build: &Build) -> Result<(), Failure> {
