@@ -7,6 +7,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small literal meshes")]
 
+#[path = "../support/corpus.rs"]
+mod corpus;
 mod gltf;
 mod obj;
 mod off;
@@ -14,19 +16,20 @@ mod ply;
 mod shapes;
 mod stl;
 
+use corpus::{Corpus, variant};
 use nephrite::store::{Provenance, StoreOptions, write_to};
 use nephrite::{BuildError, BuildOptions, Lod};
 use nephrite_formats::{MeshError, MeshFormat, read_mesh};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A file: its name and its bytes.
 type Case = (String, Vec<u8>);
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_meshes")
+fn corpus() -> Corpus {
+    Corpus { folder: "tests/bad_meshes", cases: cases() }
 }
 
 fn cases() -> BTreeMap<String, Vec<u8>> {
@@ -35,20 +38,6 @@ fn cases() -> BTreeMap<String, Vec<u8>> {
     let cases: BTreeMap<_, _> = lists.into_iter().flatten().collect();
     assert_eq!(cases.len(), n_cases, "two files of one name");
     cases
-}
-
-/// The stated outcome of each file.
-fn outcomes() -> BTreeMap<String, String> {
-    let text = std::fs::read_to_string(folder().join("outcomes.txt")).unwrap_or_default();
-    let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let split =
-        |line: &str| line.split_once(": ").map(|(name, outcome)| (name.to_owned(), outcome.to_owned()));
-    lines.map(|line| split(line).unwrap_or_else(|| panic!("no outcome in {line:?}"))).collect()
-}
-
-/// The name of an error's variant.
-fn variant(error: &impl std::fmt::Debug) -> String {
-    format!("{error:?}").split(|c: char| !c.is_alphanumeric()).next().unwrap().to_owned()
 }
 
 /// What becomes of a file: `refused: ERROR`, or its triangles and every count of what was dropped, ignored or repaired.
@@ -90,37 +79,14 @@ fn outcome(path: &Path) -> String {
 
 #[test]
 fn every_file_has_its_stated_outcome() {
-    let files = folder().join("files");
-    let cases = cases();
-    let found = || cases.keys().map(|name| (name.clone(), outcome(&files.join(name))));
-    if std::env::var_os("REGENERATE").is_some() {
-        std::fs::remove_dir_all(&files).unwrap();
-        std::fs::create_dir(&files).unwrap();
-        cases.iter().for_each(|(name, bytes)| std::fs::write(files.join(name), bytes).unwrap());
-        let lines: String = found().map(|(name, outcome)| format!("{name}: {outcome}\n")).collect();
-        let head = "# What becomes of each file in files/. Counts are those of the reports of reading and repair.\n\n";
-        std::fs::write(folder().join("outcomes.txt"), format!("{head}{lines}")).unwrap();
-    }
-    let stated = outcomes();
-    let wrong: Vec<_> = found().filter(|(name, outcome)| stated.get(name) != Some(outcome)).collect();
-    assert!(wrong.is_empty(), "{wrong:#?}");
+    let head =
+        "# What becomes of each file in files/. Counts are those of the reports of reading and repair.";
+    corpus().check_outcomes(head, outcome);
 }
 
 #[test]
 fn every_file_is_made_here_and_has_an_outcome() {
-    let cases = cases();
-    let stated: BTreeSet<String> = outcomes().into_keys().collect();
-    let generated: BTreeSet<String> = cases.keys().cloned().collect();
-    let entries = std::fs::read_dir(folder().join("files")).unwrap();
-    let there: BTreeSet<String> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    for (what, names) in [("an outcome", &stated), ("bytes made here", &generated)] {
-        let difference: Vec<_> = there.symmetric_difference(names).collect();
-        assert!(difference.is_empty(), "files without {what}, or the other way round: {difference:?}");
-    }
-    for (name, bytes) in &cases {
-        assert!(std::fs::read(folder().join("files").join(name)).unwrap() == *bytes, "{name} has changed");
-    }
+    let there = corpus().check_files();
     assert!(there.len() >= 150, "{} files", there.len());
     for format in MeshFormat::ALL {
         let n_files =
@@ -138,15 +104,11 @@ fn every_error_of_reading_has_a_file() {
     // Volumes have readers and tests of their own.
     const OF_VOLUMES: [&str; 3] = ["UnknownVolumeFormat", "UnknownVolumeExtension", "NoTetrahedra"];
     let source = include_str!("../../formats/src/error.rs");
-    let body = source.split_once("pub enum MeshError {").unwrap().1.split_once("\n}\n").unwrap().0;
-    let variants = body.lines().filter_map(|line| {
-        let name = line.strip_prefix("    ")?.split(|c: char| !c.is_alphanumeric()).next()?;
-        name.starts_with(|c: char| c.is_ascii_uppercase()).then_some(name)
-    });
-    let stated: BTreeSet<String> = outcomes().into_values().collect();
+    let variants = corpus::variants(source, "MeshError");
+    let stated: BTreeSet<String> = corpus().outcomes().into_values().collect();
     let mut n_variants = 0;
     let others = [&OF_WRITING[..], &OF_THE_SYSTEM, &OF_VOLUMES].concat();
-    for variant in variants.filter(|name| !others.contains(name)) {
+    for variant in variants.into_iter().filter(|name| !others.contains(name)) {
         assert!(stated.contains(&format!("refused: {variant}")), "no file is refused for {variant}");
         n_variants += 1;
     }
@@ -155,6 +117,6 @@ fn every_error_of_reading_has_a_file() {
 
 #[test]
 fn a_missing_file_is_refused() {
-    assert_eq!(outcome(&folder().join("files/none.ply")), "refused: Io");
-    assert_eq!(outcome(&folder().join("files")), "refused: Io");
+    assert_eq!(outcome(&corpus().file("none.ply")), "refused: Io");
+    assert_eq!(outcome(&corpus().file("")), "refused: Io");
 }

@@ -40,8 +40,15 @@ fn face(n_corners: u8, corners: &[u32]) -> Vec<u8> {
 const CORNERS: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
 
 pub(crate) fn cases() -> Vec<Case> {
-    let named = |name: &str, bytes: Vec<u8>| (format!("{name}.ply"), bytes);
-    let mut cases = vec![
+    [of_headers(), of_counts(), of_binary_data(), of_text_data()].concat()
+}
+
+fn named(name: &str, bytes: Vec<u8>) -> Case {
+    (format!("{name}.ply"), bytes)
+}
+
+fn of_headers() -> Vec<Case> {
+    vec![
         named("empty", Vec::new()),
         named("magic-only", b"ply\n".to_vec()),
         named("header-without-end", edited("end_header\n", "")),
@@ -76,6 +83,11 @@ pub(crate) fn cases() -> Vec<Case> {
         ),
         named("face-list-of-floats", edited("list uchar int", "list uchar float")),
         named("face-list-is-missing", edited(LIST, "property uchar flags\n")),
+    ]
+}
+
+fn of_counts() -> Vec<Case> {
+    vec![
         named(
             "element-of-nothing-2-64-1",
             edited("element face", "element nothing 18446744073709551615\nelement face"),
@@ -88,6 +100,11 @@ pub(crate) fn cases() -> Vec<Case> {
             binary("binary_little_endian", "18446744073709551615", "1", &floats(&CORNERS)),
         ),
         named("binary-faces-4-billion", binary("binary_little_endian", "3", "4000000000", &floats(&CORNERS))),
+    ]
+}
+
+fn of_binary_data() -> Vec<Case> {
+    vec![
         named("binary-list-longer-than-file", {
             let header = header("binary_little_endian", "3", "1").replace("uchar int", "uint int");
             [header.as_bytes(), &floats(&CORNERS), &u32::MAX.to_le_bytes(), &[0; 12]].concat()
@@ -159,8 +176,11 @@ pub(crate) fn cases() -> Vec<Case> {
             binary("binary_big_endian", "3", "1", &[floats(&CORNERS), face(3, &[0, 1, 2])].concat()),
         ),
         named("binary-data-is-text", binary("binary_little_endian", "3", "1", TRIANGLE.as_bytes())),
-    ];
-    for (name, data) in [
+    ]
+}
+
+fn of_text_data() -> Vec<Case> {
+    let data = [
         ("nan", "nan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
         ("infinity", "-inf 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
         ("beyond-f32", "1e39 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
@@ -180,8 +200,6 @@ pub(crate) fn cases() -> Vec<Case> {
         ("trailing-garbage", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\nand more\n"),
         ("no-final-newline", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2"),
         ("nul-bytes", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\0\n"),
-    ] {
-        cases.push(named(name, text("3", "1", data)));
-    }
-    cases
+    ];
+    data.map(|(name, data)| named(name, text("3", "1", data))).to_vec()
 }
