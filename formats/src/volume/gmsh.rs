@@ -162,19 +162,27 @@ impl Reader<'_> {
             return Err(self.scanner.unexpected("the number of components and of values", None));
         };
         let n_components = usize::try_from(n_components).unwrap_or(1);
-        let mut values = vec![0.0_f64; n_components * self.points.len()];
-        let mut n_given = 0_u64;
+        let n_points = self.points.len();
+        // Where there are fewer values than nodes the field is of no use, and nothing is allocated for it: a file may hold any
+        // number of such.
+        let is_kept = usize::try_from(n_values).is_ok_and(|n_values| n_values >= n_points);
+        let mut values = vec![0.0_f64; if is_kept { n_components * n_points } else { 0 }];
+        let mut is_given = vec![false; if is_kept { n_points } else { 0 }];
         for _ in 0..n_values {
             let node = integer(&mut self.scanner)?;
             let node = self.names.find(node, self.scanner.place())? as usize;
-            for value in &mut values[n_components * node..][..n_components] {
-                *value = self.scanner.number()?;
+            for component in 0..n_components {
+                let value = self.scanner.number()?;
+                if is_kept {
+                    values[n_components * node + component] = value;
+                    is_given[node] = true;
+                }
             }
-            n_given += 1;
         }
-        if n_given < self.points.len() as u64 {
-            let expected = self.points.len() as u64;
-            self.report.warnings.push(VolumeWarning::FieldLength { name, found: n_given, expected });
+        let n_given = is_given.iter().filter(|&&is_given| is_given).count();
+        if !is_kept || n_given < n_points {
+            let found = if is_kept { n_given as u64 } else { u64::try_from(n_values).unwrap_or(0) };
+            self.report.warnings.push(VolumeWarning::FieldLength { name, found, expected: n_points as u64 });
             return Ok(());
         }
         let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();

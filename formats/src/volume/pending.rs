@@ -1,5 +1,7 @@
 //! The parts of a volume as a reader finds them, put together at the end of the file.
 
+use std::collections::HashMap;
+
 use super::cells::Cells;
 use super::scalars::{Numbers, points_f32};
 use super::{VolumeReport, VolumeWarning};
@@ -45,6 +47,8 @@ impl Points {
 #[derive(Default)]
 pub(super) struct Fields {
     fields: Vec<Attribute>,
+    /// Names of the fields, each with the number that the next field of that name tries first: all below it are taken.
+    numbers: HashMap<String, u64>,
 }
 
 impl Fields {
@@ -66,14 +70,8 @@ impl Fields {
             return;
         }
         let name = if name.is_empty() { "field" } else { name };
-        let is_taken = |name: &str| self.fields.iter().any(|field| field.name == name);
-        let mut new_name = name.to_owned();
-        for number in 2_u64.. {
-            if !is_taken(&new_name) {
-                break;
-            }
-            new_name = format!("{name}_{number}");
-        }
+        // The `.neph` file ends names with a zero byte.
+        let new_name = self.free_name(&name.replace('\0', "\u{fffd}"));
         if new_name != name {
             let (name, new_name) = (name.to_owned(), new_name.clone());
             report.warnings.push(VolumeWarning::FieldRenamed { name, new_name });
@@ -85,9 +83,26 @@ impl Fields {
         }
         self.fields.push(Attribute { name: new_name, scalar, n_components, bytes });
     }
+
+    /// Takes a name, with the least free number from 2 on behind it where another field has it. No number is tried twice for one
+    /// name, so that thousands of fields of one name cost no more than others.
+    fn free_name(&mut self, name: &str) -> String {
+        let mut number = self.numbers.get(name).copied().unwrap_or(1);
+        let free = loop {
+            let tried = if number == 1 { name.to_owned() } else { format!("{name}_{number}") };
+            number += 1;
+            if !self.numbers.contains_key(&tried) {
+                break tried;
+            }
+        };
+        self.numbers.insert(free.clone(), 2);
+        self.numbers.insert(name.to_owned(), number);
+        free
+    }
 }
 
-/// Puts the parts of a volume together.
+/// Puts the parts of a volume together. Fields that were read for another number of vertices, since the file gives points after
+/// them or twice, are left out and reported.
 ///
 /// # Errors
 ///
@@ -96,13 +111,22 @@ pub(super) fn finish(
     points: Points,
     cells: Cells,
     fields: Fields,
-    report: VolumeReport,
+    mut report: VolumeReport,
 ) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
     let tetrahedra = cells.into_tetrahedra();
     if tetrahedra.is_empty() {
         return Err(MeshError::NoTetrahedra { n_vertices: points.len() });
     }
     let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
-    let mesh = TetrahedronMesh { origin, positions, tetrahedra, attributes: fields.fields, rounding };
+    let (attributes, misfits): (Vec<_>, Vec<_>) = fields
+        .fields
+        .into_iter()
+        .partition(|field| field.bytes.len() == field.stride_bytes() * positions.len());
+    report.warnings.extend(misfits.into_iter().map(|field| VolumeWarning::FieldLength {
+        found: (field.bytes.len() / field.stride_bytes()) as u64,
+        name: field.name,
+        expected: positions.len() as u64,
+    }));
+    let mesh = TetrahedronMesh { origin, positions, tetrahedra, attributes, rounding };
     Ok((mesh, report))
 }

@@ -1,5 +1,6 @@
 //! The data arrays of a VTU file, in any of their encodings.
 
+use std::cell::Cell;
 use std::io::Read;
 
 use base64::Engine;
@@ -21,6 +22,9 @@ pub(super) struct Encoding<'a> {
     pub appended: &'a [u8],
     /// Whether that is base64 and not raw.
     pub is_appended_base64: bool,
+    /// Bytes of the appended data that arrays have not used yet. Honest arrays do not overlap; without this a thousand arrays
+    /// could all be the same bytes.
+    pub n_unused: Cell<usize>,
 }
 
 /// Zlib makes no more of a byte than this many.
@@ -35,44 +39,61 @@ impl Encoding<'_> {
             "ascii" => from_text(number, text()),
             "binary" => {
                 let text: String = text().split_ascii_whitespace().collect();
-                self.read_base64(number, text.as_bytes())
+                self.read_base64(number, text.as_bytes()).map(|(numbers, _)| numbers)
             }
             "appended" => {
                 let offset = array.attribute("offset").and_then(|offset| offset.parse::<usize>().ok());
                 let rest = offset.and_then(|offset| self.appended.get(offset..));
                 let rest = rest.ok_or_else(|| cut_short("the offset of an array", self.appended.len()))?;
-                if self.is_appended_base64 {
-                    let end = rest.iter().position(|byte| !is_base64(*byte)).unwrap_or(rest.len());
-                    self.read_base64(number, &rest[..end])
+                let (numbers, n_used) = if self.is_appended_base64 {
+                    self.read_base64(number, rest)?
                 } else {
-                    self.read_raw(number, rest)
-                }
+                    self.read_raw(number, rest)?
+                };
+                self.use_up(n_used)?;
+                Ok(numbers)
             }
             other => Err(unsupported(format!("data format {other:?}"))),
         }
     }
 
-    /// Raw bytes: a length, or a table of compressed blocks, and the data.
-    fn read_raw(&self, number: NumberType, bytes: &[u8]) -> Result<Numbers, MeshError> {
+    /// Takes so many bytes from those of the appended data that no array has used.
+    fn use_up(&self, n_bytes: usize) -> Result<(), MeshError> {
+        let n_unused = self.n_unused.get();
+        let rest = n_unused.checked_sub(n_bytes).ok_or(MeshError::CountTooLarge {
+            place: Place::Part("appended data"),
+            what: "bytes of arrays that overlap",
+            count: n_bytes as u64,
+            limit: n_unused as u64,
+        })?;
+        self.n_unused.set(rest);
+        Ok(())
+    }
+
+    /// Raw bytes: a length, or a table of compressed blocks, and the data. Gives the bytes used as well.
+    fn read_raw(&self, number: NumberType, bytes: &[u8]) -> Result<(Numbers, usize), MeshError> {
         if self.is_compressed {
             let blocks = self.blocks(bytes)?;
-            let data = &bytes[blocks.header_bytes(self.header_bytes)..];
-            let data = inflate(&blocks, data)?;
-            return self.whole_numbers(number, &data);
+            let head_bytes = blocks.header_bytes(self.header_bytes);
+            let data = inflate(&blocks, &bytes[head_bytes..])?;
+            return Ok((self.whole_numbers(number, &data)?, head_bytes + blocks.compressed_bytes()));
         }
         let length = self.length(bytes, 0)?;
         let data = bytes.get(self.header_bytes..).and_then(|data| data.get(..length));
-        self.whole_numbers(number, data.ok_or_else(|| cut_short("an array", bytes.len()))?)
+        let data = data.ok_or_else(|| cut_short("an array", bytes.len()))?;
+        Ok((self.whole_numbers(number, data)?, self.header_bytes + length))
     }
 
-    /// Base64: the table of compressed blocks is encoded by itself, a plain length together with the data.
-    fn read_base64(&self, number: NumberType, text: &[u8]) -> Result<Numbers, MeshError> {
+    /// Base64: the table of compressed blocks is encoded by itself, a plain length together with the data. Gives the characters
+    /// used as well.
+    fn read_base64(&self, number: NumberType, text: &[u8]) -> Result<(Numbers, usize), MeshError> {
         if !self.is_compressed {
             // Behind the padding of the first stream another array may begin.
             let head = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
             let n_bytes = self.length(&head, 0)?.saturating_add(self.header_bytes);
             let text = text.get(..padded(n_bytes)).ok_or_else(|| cut_short("an array", text.len()))?;
-            return self.read_raw(number, &decode(text)?);
+            let (numbers, _) = self.read_raw(number, &decode(text)?)?;
+            return Ok((numbers, text.len()));
         }
         let start = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
         let n_blocks = self.length(&start, 0)?;
@@ -80,10 +101,10 @@ impl Encoding<'_> {
         let table_text = padded(table_bytes);
         let table = text.get(..table_text).ok_or_else(|| cut_short("a table of blocks", text.len()))?;
         let blocks = self.blocks(&decode(table)?)?;
-        let n_bytes = blocks.compressed.iter().fold(0_usize, |sum, &bytes| sum.saturating_add(bytes));
-        let data = text.get(table_text..).and_then(|data| data.get(..padded(n_bytes)));
+        let data_text = padded(blocks.compressed_bytes());
+        let data = text.get(table_text..).and_then(|data| data.get(..data_text));
         let data = decode(data.ok_or_else(|| cut_short("compressed data", text.len()))?)?;
-        self.whole_numbers(number, &inflate(&blocks, &data)?)
+        Ok((self.whole_numbers(number, &inflate(&blocks, &data)?)?, table_text + data_text))
     }
 
     fn whole_numbers(&self, number: NumberType, bytes: &[u8]) -> Result<Numbers, MeshError> {
@@ -132,6 +153,11 @@ struct Blocks {
 impl Blocks {
     fn header_bytes(&self, length_bytes: usize) -> usize {
         (3 + self.compressed.len()) * length_bytes
+    }
+
+    /// Of all blocks together, as claimed.
+    fn compressed_bytes(&self) -> usize {
+        self.compressed.iter().fold(0, |sum, &bytes| sum.saturating_add(bytes))
     }
 }
 
@@ -190,7 +216,7 @@ fn padded(n_bytes: usize) -> usize {
     n_bytes.div_ceil(3).saturating_mul(4)
 }
 
-fn is_base64(byte: u8) -> bool {
+pub(super) fn is_base64(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'/' | b'=')
 }
 

@@ -1,8 +1,10 @@
 //! Reading a VTU file.
 
+use std::cell::Cell;
+
 use roxmltree::{Document, Node};
 
-use super::arrays::{Encoding, unsupported};
+use super::arrays::{Encoding, is_base64, unsupported};
 use crate::error::{MeshError, Place};
 use crate::volume::cells::Cells;
 use crate::volume::pending::{Fields, Points, finish};
@@ -77,7 +79,10 @@ fn encoding<'a>(root: Node<'_, '_>, appended: &'a [u8]) -> Result<Encoding<'a>, 
     };
     let data = root.children().find(|node| node.has_tag_name("AppendedData"));
     let is_appended_base64 = data.and_then(|node| node.attribute("encoding")) == Some("base64");
-    Ok(Encoding { is_big_endian, header_bytes, is_compressed, appended, is_appended_base64 })
+    let is_end = |byte: &u8| is_appended_base64 && !is_base64(*byte);
+    let appended = &appended[..appended.iter().position(is_end).unwrap_or(appended.len())];
+    let n_unused = Cell::new(appended.len());
+    Ok(Encoding { is_big_endian, header_bytes, is_compressed, appended, is_appended_base64, n_unused })
 }
 
 fn read_piece(
