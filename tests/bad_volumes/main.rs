@@ -1,0 +1,144 @@
+//! Promise: every bad volume file ends as `outcomes.txt` says: refused with a certain error, repaired with counted repairs, or
+//! accepted as it is; and what is not refused becomes a `.neph` file that verifies.
+//!
+//! The files in `files/` are made by the modules beside this one. After a change there,
+//! `REGENERATE=1 cargo test --test bad_volumes stated_outcome` writes them anew, and the outcomes found with them: read the
+//! difference.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small literal meshes")]
+
+#[path = "../support/corpus.rs"]
+mod corpus;
+mod gmsh;
+mod medit;
+mod plot3d;
+mod shapes;
+mod tetgen;
+mod vtk;
+mod vtu;
+
+use corpus::{Corpus, variant, variants};
+use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{BuildError, Lod, VolumeOptions, build_volume};
+use nephrite_formats::{MeshError, VolumeFormat, read_volume};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
+use std::ops::ControlFlow::Continue;
+use std::path::Path;
+
+/// A file: its name and its bytes.
+type Case = (String, Vec<u8>);
+
+fn corpus() -> Corpus {
+    Corpus { folder: "tests/bad_volumes", cases: cases() }
+}
+
+fn cases() -> BTreeMap<String, Vec<u8>> {
+    let lists = [
+        vtk::cases(),
+        vtu::cases(),
+        gmsh::cases(),
+        medit::cases(),
+        tetgen::cases(),
+        plot3d::cases(),
+        shapes::cases(),
+    ];
+    let n_cases: usize = lists.iter().map(Vec::len).sum();
+    let cases: BTreeMap<_, _> = lists.into_iter().flatten().collect();
+    assert_eq!(cases.len(), n_cases, "two files of one name");
+    cases
+}
+
+/// A text with the first place of `from` replaced, which must be there.
+fn edited(text: &str, from: &str, to: &str) -> Vec<u8> {
+    assert!(text.contains(from), "{from}");
+    text.replacen(from, to, 1).into_bytes()
+}
+
+/// Cases with the extension of their format behind their names.
+fn named(extension: &str, cases: impl IntoIterator<Item = (&'static str, Vec<u8>)>) -> Vec<Case> {
+    cases.into_iter().map(|(name, bytes)| (format!("{name}.{extension}"), bytes)).collect()
+}
+
+/// What becomes of a file: `refused: ERROR`, or its tetrahedra and every count of what was dropped, cut, ignored or repaired.
+fn outcome(path: &Path) -> String {
+    let (mesh, report) = match read_volume(path) {
+        Ok(read) => read,
+        Err(error) => {
+            assert!(matches!(error, MeshError::InFile { .. }), "{error}");
+            assert!(!error.to_string().contains('\n'), "{error}");
+            return format!("refused: {}", variant(error.root()));
+        }
+    };
+    mesh.check().unwrap();
+    let build = match build_volume(&mesh, &VolumeOptions::default(), &|_| Continue(())) {
+        Ok(build) => build,
+        Err(error @ BuildError::NoTetrahedra { .. }) => return format!("refused: {}", variant(&error)),
+        Err(error) => panic!("{}: {error}", path.display()),
+    };
+    let mut stream = Cursor::new(Vec::new());
+    write_to(&mut stream, &build.mesh, &build.history, &Provenance::default(), &StoreOptions::default())
+        .unwrap();
+    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
+    lod.verify().unwrap();
+    let mut counts = Vec::new();
+    for report in [serde_json::json!(report), serde_json::json!(build.repairs)] {
+        let of_number = |(key, value): (&String, &serde_json::Value)| {
+            value.as_u64().filter(|&n| n > 0).map(|n| format!("{key} {n}"))
+        };
+        counts.extend(report.as_object().unwrap().iter().filter_map(of_number));
+    }
+    counts.extend(report.warnings.iter().map(variant));
+    let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_triangles());
+    if counts.is_empty() {
+        format!("accepted: {tetrahedra}")
+    } else {
+        format!("repaired: {tetrahedra}, {}", counts.join(", "))
+    }
+}
+
+#[test]
+fn every_file_has_its_stated_outcome() {
+    let head =
+        "# What becomes of each file in files/. Counts are those of the reports of reading and repair.";
+    corpus().check_outcomes(head, outcome);
+}
+
+#[test]
+fn every_file_is_made_here_and_has_an_outcome() {
+    let there = corpus().check_files();
+    assert!(there.len() >= 150, "{} files", there.len());
+    for format in VolumeFormat::ALL {
+        let n_files =
+            there.iter().filter(|name| VolumeFormat::from_path(name.as_ref()) == Some(format)).count();
+        assert!(n_files >= 12, "{n_files} files of {format}");
+    }
+}
+
+/// Errors of reading are stated by some file each; the others cannot be met by reading a volume.
+#[test]
+fn every_error_of_reading_volumes_has_a_file() {
+    const OF_WRITING: [&str; 4] =
+        ["UnknownExtension", "UnknownVolumeExtension", "InconsistentMesh", "TooLargeForFormat"];
+    const OF_SURFACES: [&str; 5] = ["UnknownFormat", "NoFaces", "EndsEarly", "Json", "Reference"];
+    // A file that was refused for its partner's sake has the system's reason inside, and its own name around.
+    const AROUND: [&str; 1] = ["InFile"];
+    let others = [&OF_WRITING[..], &OF_SURFACES, &AROUND].concat();
+    let of_volumes: Vec<_> = variants(include_str!("../../formats/src/error.rs"), "MeshError")
+        .into_iter()
+        .filter(|name| !others.contains(name))
+        .collect();
+    let stated: BTreeSet<String> = corpus().outcomes().into_values().collect();
+    for variant in &of_volumes {
+        assert!(stated.contains(&format!("refused: {variant}")), "no file is refused for {variant}");
+    }
+    assert!(of_volumes.len() >= 10, "{of_volumes:?}");
+}
+
+#[test]
+fn a_missing_file_is_refused() {
+    let corpus = corpus();
+    assert_eq!(outcome(&corpus.file("none.vtu")), "refused: Io");
+    assert_eq!(outcome(&corpus.file("")), "refused: Io");
+}

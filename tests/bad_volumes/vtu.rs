@@ -1,0 +1,232 @@
+//! VTU: XML, counts, arrays in every encoding, appended data.
+
+use super::{Case, edited, named};
+
+const TEXT: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
+<UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n\
+<PointData><DataArray type=\"Float64\" Name=\"heat\" format=\"ascii\">1 2 3 4 5</DataArray></PointData>\n\
+<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points>\n\
+<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 1 2 3 4</DataArray>\n\
+<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4 8</DataArray>\n\
+<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 10</DataArray></Cells>\n\
+</Piece></UnstructuredGrid></VTKFile>\n";
+
+pub(crate) fn cases() -> Vec<Case> {
+    let lists = [documents(), counts(), cells(), arrays(), inline_binaries(), appended(), compressed()];
+    lists.into_iter().flat_map(|cases| named("vtu", cases)).collect()
+}
+
+type Cases = Vec<(&'static str, Vec<u8>)>;
+
+fn documents() -> Cases {
+    let deep = [&TEXT[..TEXT.find("<Piece").unwrap()], &"<a>".repeat(5000)].concat();
+    let entities = "<!DOCTYPE v [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]>\n<VTKFile type=\"UnstructuredGrid\">&b;</VTKFile>";
+    vec![
+        ("whole", TEXT.into()),
+        ("empty", Vec::new()),
+        ("xml-cut", TEXT.as_bytes()[..TEXT.len() / 2].to_vec()),
+        ("xml-not-closed", edited(TEXT, "</Cells>", "")),
+        ("xml-deep", deep.into()),
+        ("xml-entities", entities.into()),
+        (
+            "xml-external-entity",
+            edited(TEXT, "<VTKFile", "<!DOCTYPE v [<!ENTITY e SYSTEM \"file:///etc/passwd\">]><VTKFile"),
+        ),
+        ("xml-not-utf-8", TEXT.bytes().map(|byte| if byte == b'h' { 0xff } else { byte }).collect()),
+        ("xml-utf-16", TEXT.encode_utf16().flat_map(u16::to_le_bytes).collect()),
+        ("xml-attribute-twice", edited(TEXT, "version=\"1.0\" byte", "version=\"1.0\" version=\"1.0\" byte")),
+        ("xml-character-giant", edited(TEXT, "heat", "&#99999999999;")),
+        ("xml-trailing-garbage", [TEXT, "more"].concat().into()),
+        ("root-another", TEXT.replace("VTKFile", "vtkfile").into()),
+        ("type-of-polygons", edited(TEXT, "\"UnstructuredGrid\" version", "\"PolyData\" version")),
+        ("byte-order-unknown", edited(TEXT, "LittleEndian", "MiddleEndian")),
+        ("header-type-unknown", edited(TEXT, "byte_order", "header_type=\"UInt128\" byte_order")),
+        ("compressor-unknown", edited(TEXT, "byte_order", "compressor=\"vtkLZMADataCompressor\" byte_order")),
+        ("piece-missing", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>".into()),
+        ("grid-missing", "<VTKFile type=\"UnstructuredGrid\"/>".into()),
+        ("bom", [b"\xef\xbb\xbf", TEXT.as_bytes()].concat()),
+        ("crlf", TEXT.replace('\n', "\r\n").into()),
+    ]
+}
+
+fn counts() -> Cases {
+    vec![
+        ("points-4-billion", edited(TEXT, "NumberOfPoints=\"5\"", "NumberOfPoints=\"4294967295\"")),
+        ("points-2-64-1", edited(TEXT, "NumberOfPoints=\"5\"", "NumberOfPoints=\"18446744073709551615\"")),
+        ("points-no-number", edited(TEXT, "NumberOfPoints=\"5\"", "NumberOfPoints=\"five\"")),
+        ("points-one-more", edited(TEXT, "NumberOfPoints=\"5\"", "NumberOfPoints=\"6\"")),
+        ("cells-4-billion", edited(TEXT, "NumberOfCells=\"2\"", "NumberOfCells=\"4294967295\"")),
+        ("cells-one-less", edited(TEXT, "NumberOfCells=\"2\"", "NumberOfCells=\"1\"")),
+        ("points-missing", TEXT.replace("Points>", "Pints>").into()),
+        (
+            "points-without-array",
+            edited(
+                TEXT,
+                "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points>",
+                "<Points/>",
+            ),
+        ),
+        ("points-of-a-broken-triple", edited(TEXT, "0 0 1 1 1 1<", "0 0 1 1 1<")),
+        (
+            "components-giant",
+            edited(TEXT, "Name=\"heat\"", "Name=\"heat\" NumberOfComponents=\"4294967296\""),
+        ),
+        ("components-zero", edited(TEXT, "Name=\"heat\"", "Name=\"heat\" NumberOfComponents=\"0\"")),
+        ("components-do-not-divide", edited(TEXT, "Name=\"heat\"", "Name=\"heat\" NumberOfComponents=\"2\"")),
+    ]
+}
+
+fn cells() -> Cases {
+    vec![
+        ("cells-missing", TEXT.replace("Cells>", "Sells>").into()),
+        ("connectivity-missing", edited(TEXT, "connectivity", "connected")),
+        ("offsets-missing", edited(TEXT, "offsets", "offset")),
+        ("types-missing", edited(TEXT, "\"types\"", "\"type\"")),
+        ("index-out-of-range", edited(TEXT, "1 2 3 4<", "1 2 3 5<")),
+        ("index-negative", edited(TEXT, "1 2 3 4<", "1 2 3 -1<")),
+        ("index-beyond-type", edited(TEXT, "1 2 3 4<", "1 2 3 4294967296<")),
+        ("index-fraction", edited(TEXT, "1 2 3 4<", "1 2 3 3.5<")),
+        ("offsets-falling", edited(TEXT, ">4 8<", ">8 4<")),
+        ("offsets-negative", edited(TEXT, ">4 8<", ">-4 8<")),
+        ("offsets-beyond", edited(TEXT, ">4 8<", ">4 9<")),
+        ("offsets-short", edited(TEXT, ">4 8<", ">4 7<")),
+        ("offsets-one-less", edited(TEXT, ">4 8<", ">4<")),
+        ("type-unknown", edited(TEXT, "10 10", "10 99")),
+        ("type-polyhedron", edited(TEXT, "10 10", "10 42")),
+        ("types-all-triangles", edited(TEXT, "10 10", "5 5")),
+    ]
+}
+
+fn arrays() -> Cases {
+    vec![
+        ("array-type-missing", edited(TEXT, "type=\"Float64\" ", "")),
+        ("array-type-unknown", edited(TEXT, "Float64", "Float80")),
+        ("array-format-unknown", edited(TEXT, "format=\"ascii\">1 2", "format=\"hex\">1 2")),
+        ("array-value-word", edited(TEXT, "1 2 3 4 5<", "1 2 drei 4 5<")),
+        ("array-value-nan", edited(TEXT, "1 2 3 4 5<", "1 2 nan 4 5<")),
+        ("array-value-missing", edited(TEXT, "1 2 3 4 5<", "1 2 3 4<")),
+        ("array-without-name", edited(TEXT, "Name=\"heat\" ", "")),
+        ("array-name-of-controls", edited(TEXT, "heat", "a&#10;b&#x85;c")),
+        (
+            "arrays-of-one-name",
+            TEXT.replace(
+                "</PointData>",
+                "<DataArray type=\"Int64\" Name=\"heat\">1 2 3 4 5</DataArray></PointData>",
+            )
+            .into(),
+        ),
+        ("point-nan", edited(TEXT, "1 1 1<", "1 NaN 1<")),
+        ("point-beyond-f32", edited(TEXT, "1 1 1<", "1 1e39 1<")),
+        (
+            "point-of-doubles-beyond-f32",
+            TEXT.replace("Float32", "Float64").replace("1 1 1<", "1 1e300 1<").into(),
+        ),
+        ("points-of-bytes", edited(TEXT, "Float32", "UInt8")),
+        (
+            "cell-data",
+            edited(
+                TEXT,
+                "<Points>",
+                "<CellData><DataArray type=\"Int8\" Name=\"part\">1 2</DataArray></CellData><Points>",
+            ),
+        ),
+    ]
+}
+
+/// The values at points as base64, a length of 4 bytes in front.
+fn inline_binaries() -> Cases {
+    let with =
+        |text: &str| edited(TEXT, "format=\"ascii\">1 2 3 4 5<", &format!("format=\"binary\">{text}<"));
+    vec![
+        ("base64-whole", with("KAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBAAAAAAAAAFEA=")),
+        (
+            "base64-of-several-lines",
+            with("KAAAAAAAAAAAAPA/\nAAAAAAAAAEAAAAAAAAAIQAAAAAAA\n ABBAAAAAAAAAFEA="),
+        ),
+        ("base64-empty", with("")),
+        ("base64-bad-character", with("KAAA!AAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBAAAAAAAAAFEA=")),
+        ("base64-cut", with("KAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBAAAA")),
+        ("base64-length-giant", with("/////wAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBAAAAAAAAAFEA=")),
+        ("base64-length-odd", with("BwAAAAAAAAAAAPA/")),
+        ("base64-without-padding", with("KAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBAAAAAAAAAFEA")),
+    ]
+}
+
+/// The values at points behind the XML.
+fn appended() -> Cases {
+    let values: Vec<u8> =
+        [1.0_f64, 2.0, 3.0, 4.0, 5.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+    let raw = |array: &str, length: u32, values: &[u8]| {
+        let text = TEXT.replace("format=\"ascii\">1 2 3 4 5</DataArray>", array).replace(
+            "</UnstructuredGrid></VTKFile>\n",
+            "</UnstructuredGrid><AppendedData encoding=\"raw\">_",
+        );
+        [text.as_bytes(), &length.to_le_bytes(), values, b"</AppendedData></VTKFile>"].concat()
+    };
+    let at = |offset: &str| format!("format=\"appended\" offset=\"{offset}\"/>");
+    let twice = format!("{}<DataArray type=\"Float64\" Name=\"b\" {}", at("0"), at("0"));
+    let length = values.len() as u32;
+    vec![
+        ("appended-whole", raw(&at("0"), length, &values)),
+        ("appended-offset-missing", raw("format=\"appended\"/>", length, &values)),
+        ("appended-offset-negative", raw(&at("-1"), length, &values)),
+        ("appended-offset-beyond", raw(&at("4000000000"), length, &values)),
+        ("appended-offset-2-64-1", raw(&at("18446744073709551615"), length, &values)),
+        ("appended-offset-at-the-end", raw(&at("70"), length, &values)),
+        ("appended-length-giant", raw(&at("0"), u32::MAX, &values)),
+        ("appended-length-odd", raw(&at("0"), 9, &values)),
+         ("appended-cut", raw(&at("0"), length, &values[..8])),
+        ("appended-arrays-overlap", raw(&twice, length, &values)),
+        ("appended-missing", edited(TEXT, "format=\"ascii\">1 2 3 4 5</DataArray>", &at("0"))),
+        ("appended-without-mark", TEXT.replace("format=\"ascii\">1 2 3 4 5</DataArray>", &at("0")).replace("</VTKFile>", "<AppendedData encoding=\"raw\">").into()),
+        ("appended-as-base64", TEXT.replace("format=\"ascii\">1 2 3 4 5</DataArray>", &at("0")).replace("</VTKFile>", "<AppendedData encoding=\"base64\">\n_KAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBAAAAAAAAAFEA=\n</AppendedData></VTKFile>").into()),
+        ("appended-big-endian", edited(std::str::from_utf8(&raw(&at("0"), length, b"")).unwrap(), "LittleEndian", "BigEndian")),
+    ]
+}
+
+/// The values at points compressed by zlib, as stored blocks: the table, and what stands behind it.
+fn compressed() -> Cases {
+    let values: Vec<u8> =
+        [1.0_f64, 2.0, 3.0, 4.0, 5.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+    let block = stored(&values);
+    let file = |table: &[u32], data: &[u8]| {
+        let text = TEXT
+            .replace("byte_order", "compressor=\"vtkZLibDataCompressor\" byte_order")
+            .replace("format=\"ascii\">1 2 3 4 5</DataArray>", "format=\"appended\" offset=\"0\"/>")
+            .replace(
+                "</UnstructuredGrid></VTKFile>\n",
+                "</UnstructuredGrid><AppendedData encoding=\"raw\">_",
+            );
+        let table: Vec<u8> = table.iter().flat_map(|word| word.to_le_bytes()).collect();
+        [text.as_bytes(), &table, data, b"</AppendedData></VTKFile>"].concat()
+    };
+    let n_bytes = block.len() as u32;
+    let mut damaged = block.clone();
+    *damaged.last_mut().unwrap() ^= 1;
+    vec![
+        ("zlib-whole", file(&[1, 40, 0, n_bytes], &block)),
+        ("zlib-checksum-wrong", file(&[1, 40, 0, n_bytes], &damaged)),
+        ("zlib-garbage", file(&[1, 40, 0, n_bytes], &[0x55; 51])),
+        ("zlib-cut", file(&[1, 40, 0, n_bytes - 9], &block)),
+        ("zlib-blocks-4-billion", file(&[u32::MAX, 40, 0, n_bytes], &block)),
+        ("zlib-no-blocks", file(&[0, 0, 0], &block)),
+        ("zlib-block-claims-4-gib", file(&[1, u32::MAX, 0, n_bytes], &block)),
+        ("zlib-block-claims-a-byte-less", file(&[1, 39, 0, n_bytes], &block)),
+        ("zlib-block-claims-a-byte-more", file(&[1, 41, 0, n_bytes], &block)),
+        ("zlib-last-block-of-other-length", file(&[1, 8, 40, n_bytes], &block)),
+        ("zlib-compressed-length-giant", file(&[1, 40, 0, u32::MAX], &block)),
+        ("zlib-compressed-length-zero", file(&[1, 40, 0, 0], &block)),
+    ]
+}
+
+/// A zlib stream of one stored block (RFC 1950, RFC 1951).
+fn stored(bytes: &[u8]) -> Vec<u8> {
+    let (mut a, mut b) = (1_u32, 0_u32);
+    for &byte in bytes {
+        a = (a + u32::from(byte)) % 65521;
+        b = (b + a) % 65521;
+    }
+    let length = bytes.len() as u16;
+    let head = [&[0x78, 0x01, 0x01][..], &length.to_le_bytes(), &(!length).to_le_bytes()].concat();
+    [&head[..], bytes, &(b << 16 | a).to_be_bytes()].concat()
+}
