@@ -18,7 +18,8 @@ use tokio_util::io::ReaderStream;
 use super::range::{self, Part};
 use super::site::{Body, Site};
 
-type Answer = Response<BoxBody<Bytes, io::Error>>;
+/// What a client gets.
+pub(super) type Answer = Response<BoxBody<Bytes, io::Error>>;
 
 /// Bytes of a file that are in memory for one answer.
 const READ_BYTES: usize = 1 << 16;

@@ -5,6 +5,8 @@
 //! since 2022. hyper knows no ranges, so [`range`] reads the one header that is needed (RFC 9110, section 14).
 
 mod answer;
+#[cfg(test)]
+mod fuzz;
 mod range;
 mod site;
 
@@ -14,12 +16,16 @@ use std::net::{IpAddr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::time::Duration;
 
-use hyper::server::conn::http1;
-use hyper::service::service_fn;
+use hyper::Request;
+use hyper::body::Incoming;
+use hyper::server::conn::http1::{self, Connection};
+use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::GracefulShutdown;
+use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::time;
 
+use self::answer::Answer;
 pub(crate) use self::site::{Body, Site};
 use crate::interrupt;
 
@@ -82,19 +88,8 @@ async fn serve(listener: TcpListener, site: Arc<Site>, is_private: bool) -> io::
         tokio::select! {
             _ = pulse.tick() => if interrupt::is_requested() { break },
             accepted = listener.accept() => match accepted {
-                Ok((stream, _)) => {
-                    let site = Arc::clone(&site);
-                    let answer = service_fn(move |request| {
-                        let site = Arc::clone(&site);
-                        async move { Ok::<_, Infallible>(answer::answer(&site, is_private, &request).await) }
-                    });
-                    let connection = http1::Builder::new()
-                        .timer(TokioTimer::new())
-                        .header_read_timeout(PATIENCE)
-                        .serve_connection(TokioIo::new(stream), answer);
-                    // A client that goes away in the middle is its own affair.
-                    tokio::spawn(connections.watch(connection));
-                }
+                // A client that goes away in the middle is its own affair.
+                Ok((stream, _)) => drop(tokio::spawn(connections.watch(connection(stream, &site, is_private)))),
                 // Out of descriptors, for one: those in use are given back in time.
                 Err(_) => time::sleep(PULSE).await,
             }
@@ -102,4 +97,25 @@ async fn serve(listener: TcpListener, site: Arc<Site>, is_private: bool) -> io::
     }
     let _ = time::timeout(PARTING, connections.shutdown()).await;
     Ok(())
+}
+
+/// The conversation with one client over its stream: a future that ends when the client has gone, or was silent for too long in
+/// the middle of a request's head.
+fn connection<S: AsyncRead + AsyncWrite + Unpin>(
+    stream: S,
+    site: &Arc<Site>,
+    is_private: bool,
+) -> Connection<
+    TokioIo<S>,
+    impl Service<Request<Incoming>, Response = Answer, Error = Infallible, Future: Send> + use<S>,
+> {
+    let site = Arc::clone(site);
+    let answer = service_fn(move |request| {
+        let site = Arc::clone(&site);
+        async move { Ok(answer::answer(&site, is_private, &request).await) }
+    });
+    http1::Builder::new()
+        .timer(TokioTimer::new())
+        .header_read_timeout(PATIENCE)
+        .serve_connection(TokioIo::new(stream), answer)
 }
