@@ -1,7 +1,6 @@
 //! glTF and GLB: containers, accessors, references, scenes.
 
 use super::Case;
-use std::fmt::Write;
 
 /// A triangle's nine coordinates, as base 64.
 const DATA: &str = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -73,12 +72,17 @@ fn glb_cases() -> Vec<Case> {
 }
 
 pub(crate) fn cases() -> Vec<Case> {
-    let mut cases = glb_cases();
-    let view = r#""byteOffset": 0, "byteLength": 36"#;
-    let uri = r#""uri": "DATA""#;
-    let mut deep = "[".repeat(10_000);
-    write!(deep, "{}", "]".repeat(10_000)).unwrap();
-    for (name, bytes) in [
+    let lists = [documents(), accessors(), references(), scenes()];
+    let of_text = lists.into_iter().flatten().map(|(name, bytes)| (format!("{name}.gltf"), bytes));
+    glb_cases().into_iter().chain(of_text).collect()
+}
+
+type Cases = Vec<(&'static str, Vec<u8>)>;
+
+/// JSON, and what it says of itself.
+fn documents() -> Cases {
+    let deep = ["[", "]"].map(|bracket| bracket.repeat(10_000)).concat();
+    vec![
         ("whole", edited("DATA", "DATA")),
         ("empty", Vec::new()),
         ("json-cut", TRIANGLE.as_bytes()[..100].to_vec()),
@@ -90,30 +94,76 @@ pub(crate) fn cases() -> Vec<Case> {
         ("asset-missing", edited(r#""asset": {"version": "2.0"}, "#, "")),
         ("asset-version-1", edited("2.0", "1.0")),
         ("asset-version-giant", edited("2.0", "99999999999999999999.0")),
-        ("required-extension", edited(r#""scenes""#, r#""extensionsRequired": ["KHR_draco_mesh_compression"], "scenes""#)),
+        (
+            "required-extension",
+            edited(r#""scenes""#, r#""extensionsRequired": ["KHR_draco_mesh_compression"], "scenes""#),
+        ),
+    ]
+}
+
+/// Accessors, the views they read and the buffers below.
+fn accessors() -> Cases {
+    let view = r#""byteOffset": 0, "byteLength": 36"#;
+    vec![
         ("count-4-billion", edited(r#""count": 3"#, r#""count": 4000000000"#)),
         ("count-2-64-1", edited(r#""count": 3"#, r#""count": 18446744073709551615"#)),
         ("count-negative", edited(r#""count": 3"#, r#""count": -3"#)),
         ("count-fraction", edited(r#""count": 3"#, r#""count": 3.5"#)),
         ("count-zero", edited(r#""count": 3"#, r#""count": 0"#)),
-        ("count-4-billion-without-view", edited(r#""bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3"#, r#""componentType": 5126, "type": "VEC3", "count": 4000000000"#)),
+        (
+            "count-4-billion-without-view",
+            edited(
+                r#""bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3"#,
+                r#""componentType": 5126, "type": "VEC3", "count": 4000000000"#,
+            ),
+        ),
         ("accessor-missing", edited(r#""POSITION": 0"#, r#""POSITION": 1"#)),
         ("accessor-offset-beyond", edited(r#""count": 3"#, r#""count": 3, "byteOffset": 4"#)),
-        ("accessor-offset-giant", edited(r#""count": 3"#, r#""count": 3, "byteOffset": 18446744073709551615"#)),
+        (
+            "accessor-offset-giant",
+            edited(r#""count": 3"#, r#""count": 3, "byteOffset": 18446744073709551615"#),
+        ),
         ("accessor-type-unknown", edited("VEC3", "VEC5")),
         ("accessor-component-unknown", edited("5126", "5130")),
         ("accessor-positions-of-bytes", edited("5126", "5121")),
-        ("sparse-index-out-of-range", edited(r#""count": 3"#, r#""count": 3, "sparse": {"count": 1, "indices": {"bufferView": 0, "byteOffset": 12, "componentType": 5125}, "values": {"bufferView": 0}}"#)),
-        ("sparse-count-beyond", edited(r#""count": 3"#, r#""count": 3, "sparse": {"count": 4, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}}"#)),
+        (
+            "sparse-index-out-of-range",
+            edited(
+                r#""count": 3"#,
+                r#""count": 3, "sparse": {"count": 1, "indices": {"bufferView": 0, "byteOffset": 12, "componentType": 5125}, "values": {"bufferView": 0}}"#,
+            ),
+        ),
+        (
+            "sparse-count-beyond",
+            edited(
+                r#""count": 3"#,
+                r#""count": 3, "sparse": {"count": 4, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}}"#,
+            ),
+        ),
         ("view-missing", edited(r#""bufferView": 0"#, r#""bufferView": 7"#)),
         ("view-beyond-buffer", edited(view, r#""byteOffset": 4, "byteLength": 36"#)),
-        ("view-giant", edited(view, r#""byteOffset": 18446744073709551615, "byteLength": 18446744073709551615"#)),
+        (
+            "view-giant",
+            edited(view, r#""byteOffset": 18446744073709551615, "byteLength": 18446744073709551615"#),
+        ),
         ("view-stride-below-element", edited(view, r#""byteOffset": 0, "byteLength": 36, "byteStride": 4"#)),
-        ("view-stride-giant", edited(view, r#""byteOffset": 0, "byteLength": 36, "byteStride": 18446744073709551615"#)),
-        ("view-compressed", edited(view, r#""byteLength": 36, "extensions": {"EXT_meshopt_compression": {}}"#)),
+        (
+            "view-stride-giant",
+            edited(view, r#""byteOffset": 0, "byteLength": 36, "byteStride": 18446744073709551615"#),
+        ),
+        (
+            "view-compressed",
+            edited(view, r#""byteLength": 36, "extensions": {"EXT_meshopt_compression": {}}"#),
+        ),
         ("buffer-shorter-than-stated", edited(r#""byteLength": 36, "uri""#, r#""byteLength": 360, "uri""#)),
         ("buffer-stated-4-gib", edited(r#""byteLength": 36, "uri""#, r#""byteLength": 4294967296, "uri""#)),
-        ("buffer-without-uri", edited(&format!(", {uri}"), "")),
+        ("buffer-without-uri", edited(r#", "uri": "DATA""#, "")),
+    ]
+}
+
+/// Where buffers come from.
+fn references() -> Cases {
+    vec![
         ("uri-missing-file", edited("DATA", "none.bin")),
         ("uri-parent", edited("DATA", "../../outcomes.txt")),
         ("uri-parent-escaped", edited("DATA", "%2e%2e/%2e%2e/outcomes.txt")),
@@ -125,6 +175,12 @@ pub(crate) fn cases() -> Vec<Case> {
         ("uri-empty", edited("DATA", "")),
         ("data-bad-base64", edited("DATA", "data:application/octet-stream;base64,????")),
         ("data-not-base64", edited("DATA", "data:application/octet-stream,AAAA")),
+    ]
+}
+
+/// Scenes, nodes, meshes and primitives.
+fn scenes() -> Cases {
+    vec![
         ("scene-missing", edited(r#""scenes""#, r#""scene": 5, "scenes""#)),
         ("node-missing", edited(r#"{"nodes": [0]}"#, r#"{"nodes": [9]}"#)),
         ("node-cycle", edited(r#"{"mesh": 0}"#, r#"{"mesh": 0, "children": [0]}"#)),
@@ -144,10 +200,7 @@ pub(crate) fn cases() -> Vec<Case> {
         ("indices-out-of-range", edited(r#""mode": 4"#, r#""indices": 1"#)),
         ("indices-of-floats", edited(r#""mode": 4"#, r#""indices": 0"#)),
         ("indices-beyond-vertices", edited(r#""mode": 4"#, r#""indices": 1"#).replace_first(r#""count": 3}]"#, r#""count": 3}, {"bufferView": 0, "byteOffset": 12, "componentType": 5125, "type": "SCALAR", "count": 3}]"#)),
-    ] {
-        cases.push((format!("{name}.gltf"), bytes));
-    }
-    cases
+    ]
 }
 
 /// Replacing in bytes that are text.

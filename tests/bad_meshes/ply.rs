@@ -104,6 +104,7 @@ fn of_counts() -> Vec<Case> {
 }
 
 fn of_binary_data() -> Vec<Case> {
+    let little = |body: &[u8]| binary("binary_little_endian", "3", "1", body);
     vec![
         named("binary-list-longer-than-file", {
             let header = header("binary_little_endian", "3", "1").replace("uchar int", "uint int");
@@ -117,65 +118,28 @@ fn of_binary_data() -> Vec<Case> {
             let header = header("binary_little_endian", "3", "1").replace("uchar int", "float int");
             [header.as_bytes(), &floats(&CORNERS), &2.5_f32.to_le_bytes(), &face(0, &[0, 1, 2])[1..]].concat()
         }),
-        named("binary-cut-in-a-vertex", binary("binary_little_endian", "3", "1", &floats(&CORNERS)[..30])),
-        named(
-            "binary-cut-in-a-face",
-            binary("binary_little_endian", "3", "1", &[floats(&CORNERS), face(3, &[0, 1])].concat()),
-        ),
-        named(
-            "binary-trailing-bytes",
-            binary(
-                "binary_little_endian",
-                "3",
-                "1",
-                &[floats(&CORNERS), face(3, &[0, 1, 2]), vec![7; 9]].concat(),
-            ),
-        ),
-        named(
-            "binary-index-out-of-range",
-            binary("binary_little_endian", "3", "1", &[floats(&CORNERS), face(3, &[0, 1, 3])].concat()),
-        ),
-        named(
-            "binary-index-all-ones",
-            binary(
-                "binary_little_endian",
-                "3",
-                "1",
-                &[floats(&CORNERS), face(3, &[0, 1, u32::MAX])].concat(),
-            ),
-        ),
+        named("binary-cut-in-a-vertex", little(&floats(&CORNERS)[..30])),
+        named("binary-cut-in-a-face", little(&[floats(&CORNERS), face(3, &[0, 1])].concat())),
+        named("binary-trailing-bytes", little(&[floats(&CORNERS), face(3, &[0, 1, 2]), vec![7; 9]].concat())),
+        named("binary-index-out-of-range", little(&[floats(&CORNERS), face(3, &[0, 1, 3])].concat())),
+        named("binary-index-all-ones", little(&[floats(&CORNERS), face(3, &[0, 1, u32::MAX])].concat())),
         named(
             "binary-nan",
-            binary(
-                "binary_little_endian",
-                "3",
-                "1",
-                &[floats(&[f32::NAN]), floats(&CORNERS[1..]), face(3, &[0, 1, 2])].concat(),
-            ),
+            little(&[floats(&[f32::NAN]), floats(&CORNERS[1..]), face(3, &[0, 1, 2])].concat()),
         ),
         named(
             "binary-infinity",
-            binary(
-                "binary_little_endian",
-                "3",
-                "1",
-                &[floats(&[f32::INFINITY]), floats(&CORNERS[1..]), face(3, &[0, 1, 2])].concat(),
-            ),
+            little(&[floats(&[f32::INFINITY]), floats(&CORNERS[1..]), face(3, &[0, 1, 2])].concat()),
         ),
         named(
             "binary-subnormal",
-            binary(
-                "binary_little_endian",
-                "3",
-                "1",
-                &[floats(&CORNERS.map(|x| x * 1e-40)), face(3, &[0, 1, 2])].concat(),
-            ),
+            little(&[floats(&CORNERS.map(|x| x * 1e-40)), face(3, &[0, 1, 2])].concat()),
         ),
         named(
             "binary-big-endian-said-of-little",
             binary("binary_big_endian", "3", "1", &[floats(&CORNERS), face(3, &[0, 1, 2])].concat()),
         ),
-        named("binary-data-is-text", binary("binary_little_endian", "3", "1", TRIANGLE.as_bytes())),
+        named("binary-data-is-text", little(TRIANGLE.as_bytes())),
     ]
 }
 

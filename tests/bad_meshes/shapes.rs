@@ -72,23 +72,48 @@ fn components(n: usize) -> Vec<u8> {
 }
 
 pub(crate) fn cases() -> Vec<Case> {
+    let lists = [of_a_grid(), of_few_faces(), positions(), polygons()];
+    let shapes = lists.into_iter().flatten().map(|(name, bytes)| (format!("{name}.obj"), bytes));
+    let others = [("unknown-text.xyz", &b"neither this nor that\n"[..]), ("empty", &[])];
+    shapes.chain(others.map(|(name, bytes)| (name.to_owned(), bytes.to_vec()))).collect()
+}
+
+type Cases = Vec<(&'static str, Vec<u8>)>;
+
+fn point(x: f64, y: f64) -> [f64; 3] {
+    [x, y, 0.0]
+}
+
+/// The grid with more vertices and faces behind its own.
+fn grid_and(more: &[[f64; 3]], more_faces: &[Vec<usize>]) -> Vec<u8> {
     let (vertices, faces) = grid(4);
-    let with_faces = |more: &[Vec<usize>]| obj(&vertices, &[&faces[..], more].concat());
-    let with_vertices = |more: &[[f64; 3]], more_faces: &[Vec<usize>]| {
-        obj(&[&vertices[..], more].concat(), &[&faces[..], more_faces].concat())
-    };
+    obj(&[&vertices[..], more].concat(), &[&faces[..], more_faces].concat())
+}
+
+/// What is wrong between faces.
+fn of_a_grid() -> Cases {
+    let (vertices, faces) = grid(4);
     let reversed = faces.iter().enumerate().map(|(i, face)| match i {
         4..8 => face.iter().rev().copied().collect(),
         _ => face.clone(),
     });
-    let point = |x: f64, y: f64| [x, y, 0.0];
-    [
+    vec![
         ("shape-edge-of-3-faces", book(3)),
         ("shape-edge-of-1000-faces", book(1000)),
         ("shape-fan-of-1000", fan(1000)),
         ("shape-moebius", moebius(16)),
         ("shape-200-components", components(200)),
         ("shape-one-patch-reversed", obj(&vertices, &reversed.collect::<Vec<_>>())),
+        ("shape-isolated-vertices", grid_and(&[[9.0; 3], [8.0; 3]], &[])),
+        ("shape-doubled-vertices", grid_and(&[vertices[0], vertices[5]], &[vec![16, 17, 1]])),
+        ("shape-duplicate-faces", grid_and(&[], &[faces[0].clone(), faces[3].clone()])),
+        ("shape-opposite-faces", grid_and(&[], &[faces[0].iter().rev().copied().collect()])),
+    ]
+}
+
+/// Surfaces that meet themselves.
+fn of_few_faces() -> Cases {
+    vec![
         (
             "shape-bow-tie-vertex",
             obj(
@@ -109,53 +134,6 @@ pub(crate) fn cases() -> Vec<Case> {
                 ],
                 &[vec![0, 1, 2], vec![3, 4, 5]],
             ),
-        ),
-        ("shape-isolated-vertices", with_vertices(&[[9.0; 3], [8.0; 3]], &[])),
-        ("shape-doubled-vertices", with_vertices(&[vertices[0], vertices[5]], &[vec![16, 17, 1]])),
-        ("shape-duplicate-faces", with_faces(&[faces[0].clone(), faces[3].clone()])),
-        ("shape-opposite-faces", with_faces(&[faces[0].iter().rev().copied().collect()])),
-        (
-            "shape-zero-area",
-            with_vertices(&[[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [2.0, 0.0, 5.0]], &[vec![16, 17, 18]]),
-        ),
-        ("shape-all-equal", obj(&[[3.0; 3]; 4], &[vec![0, 1, 2], vec![1, 2, 3]])),
-        ("shape-collinear", mapped(4, |[x, y, _]| [x + 4.0 * y, 0.0, 0.0])),
-        ("shape-planar", mapped(5, |[x, y, _]| [x, y, 0.0])),
-        ("shape-subnormal", mapped(4, |v| v.map(|x| x * 1e-42))),
-        ("shape-subnormal-of-doubles", mapped(4, |v| v.map(|x| x * 1e-310))),
-        ("shape-huge", mapped(4, |v| v.map(|x| x * 1e30))),
-        ("shape-largest", mapped(4, |v| v.map(|x| x * 1.1e38))),
-        ("shape-wide-range", mapped(4, |[x, y, z]| [x * 1e30, y * 1e-30, z])),
-        ("shape-far-from-origin", mapped(4, |[x, y, z]| [x * 1e-3 + 1e7, y * 1e-3 - 1e7, z * 1e-3])),
-        (
-            "shape-collapses-in-f32",
-            mapped(4, |[x, y, z]| [x * 1e-10 + 1.0, y * 1e-10 + 1.0, z * 1e-10 + 1.0]),
-        ),
-        (
-            "shape-concave-polygon",
-            obj(
-                &[point(0.0, 0.0), point(4.0, 0.0), point(4.0, 4.0), point(2.0, 1.0), point(0.0, 4.0)],
-                &[vec![0, 1, 2, 3, 4]],
-            ),
-        ),
-        (
-            "shape-polygon-crosses-itself",
-            obj(&[point(0.0, 0.0), point(4.0, 4.0), point(4.0, 0.0), point(0.0, 4.0)], &[vec![0, 1, 2, 3]]),
-        ),
-        (
-            "shape-polygon-not-planar",
-            obj(&[point(0.0, 0.0), [4.0, 0.0, 3.0], point(4.0, 4.0), [0.0, 4.0, 3.0]], &[vec![0, 1, 2, 3]]),
-        ),
-        (
-            "shape-polygon-visits-a-corner-twice",
-            obj(
-                &[point(0.0, 0.0), point(2.0, 0.0), point(2.0, 2.0), point(-2.0, 0.0), point(-2.0, -2.0)],
-                &[vec![0, 1, 2, 0, 3, 4]],
-            ),
-        ),
-        (
-            "shape-polygon-collinear",
-            obj(&[point(0.0, 0.0), point(1.0, 0.0), point(2.0, 0.0), point(3.0, 0.0)], &[vec![0, 1, 2, 3]]),
         ),
         (
             "shape-closed-tetrahedron-inside-out",
@@ -188,11 +166,59 @@ pub(crate) fn cases() -> Vec<Case> {
             ),
         ),
     ]
-    .into_iter()
-    .map(|(name, bytes)| (format!("{name}.obj"), bytes))
-    .chain([
-        ("unknown-text.xyz".to_owned(), b"neither this nor that\n".to_vec()),
-        ("empty".to_owned(), Vec::new()),
-    ])
-    .collect()
+}
+
+/// Positions at the ends of what numbers can be, and without area.
+fn positions() -> Cases {
+    vec![
+        (
+            "shape-zero-area",
+            grid_and(&[[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [2.0, 0.0, 5.0]], &[vec![16, 17, 18]]),
+        ),
+        ("shape-all-equal", obj(&[[3.0; 3]; 4], &[vec![0, 1, 2], vec![1, 2, 3]])),
+        ("shape-collinear", mapped(4, |[x, y, _]| [x + 4.0 * y, 0.0, 0.0])),
+        ("shape-planar", mapped(5, |[x, y, _]| [x, y, 0.0])),
+        ("shape-subnormal", mapped(4, |v| v.map(|x| x * 1e-42))),
+        ("shape-subnormal-of-doubles", mapped(4, |v| v.map(|x| x * 1e-310))),
+        ("shape-huge", mapped(4, |v| v.map(|x| x * 1e30))),
+        ("shape-largest", mapped(4, |v| v.map(|x| x * 1.1e38))),
+        ("shape-wide-range", mapped(4, |[x, y, z]| [x * 1e30, y * 1e-30, z])),
+        ("shape-far-from-origin", mapped(4, |[x, y, z]| [x * 1e-3 + 1e7, y * 1e-3 - 1e7, z * 1e-3])),
+        (
+            "shape-collapses-in-f32",
+            mapped(4, |[x, y, z]| [x * 1e-10 + 1.0, y * 1e-10 + 1.0, z * 1e-10 + 1.0]),
+        ),
+    ]
+}
+
+/// Faces of more than three corners.
+fn polygons() -> Cases {
+    vec![
+        (
+            "shape-concave-polygon",
+            obj(
+                &[point(0.0, 0.0), point(4.0, 0.0), point(4.0, 4.0), point(2.0, 1.0), point(0.0, 4.0)],
+                &[vec![0, 1, 2, 3, 4]],
+            ),
+        ),
+        (
+            "shape-polygon-crosses-itself",
+            obj(&[point(0.0, 0.0), point(4.0, 4.0), point(4.0, 0.0), point(0.0, 4.0)], &[vec![0, 1, 2, 3]]),
+        ),
+        (
+            "shape-polygon-not-planar",
+            obj(&[point(0.0, 0.0), [4.0, 0.0, 3.0], point(4.0, 4.0), [0.0, 4.0, 3.0]], &[vec![0, 1, 2, 3]]),
+        ),
+        (
+            "shape-polygon-visits-a-corner-twice",
+            obj(
+                &[point(0.0, 0.0), point(2.0, 0.0), point(2.0, 2.0), point(-2.0, 0.0), point(-2.0, -2.0)],
+                &[vec![0, 1, 2, 0, 3, 4]],
+            ),
+        ),
+        (
+            "shape-polygon-collinear",
+            obj(&[point(0.0, 0.0), point(1.0, 0.0), point(2.0, 0.0), point(3.0, 0.0)], &[vec![0, 1, 2, 3]]),
+        ),
+    ]
 }

@@ -1,26 +1,42 @@
 //! Promise: every bad `.neph` file ends as `outcomes.txt` says: refused when it is opened, opened and refused when it is
 //! verified, or accepted; and whatever opens gives bounded answers in range to everything that is asked.
 //!
-//! The files in `files/` are made by `cases.rs`. After a change there, `REGENERATE=1 cargo test --test bad_neph
+//! The files in `files/` are made by the modules beside this one. After a change there, `REGENERATE=1 cargo test --test bad_neph
 //! stated_outcome` writes them anew, and the outcomes found with them: read the difference.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, reason = "small files")]
 #![allow(clippy::semicolon_if_nothing_returned, reason = "an edit in a list is one expression")]
 
-mod cases;
+mod contents;
 #[path = "../support/corpus.rs"]
 mod corpus;
+mod heads;
 #[path = "../support/mod.rs"]
 mod support;
+mod trees;
+mod valid;
 
 use corpus::{Corpus, variant, variants};
 use nephrite::store::{OpenError, VerifyError};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use support::damage::{Outcome, open_and_use};
 
+/// Files by name, without the extension.
+type Cases = Vec<(&'static str, Vec<u8>)>;
+
 fn corpus() -> Corpus {
-    Corpus { folder: "tests/bad_neph", cases: cases::all() }
+    Corpus { folder: "tests/bad_neph", cases: cases() }
+}
+
+/// All files, by name: small valid ones with one thing wrong, all checksums made right where the fault is not in them.
+fn cases() -> BTreeMap<String, Vec<u8>> {
+    let lists = [heads::cases(), contents::cases(), trees::cases()];
+    let n_cases: usize = lists.iter().map(Vec::len).sum();
+    let cases: BTreeMap<_, _> =
+        lists.into_iter().flatten().map(|(name, bytes)| (format!("{name}.neph"), bytes)).collect();
+    assert_eq!(cases.len(), n_cases, "two files of one name");
+    cases
 }
 
 fn outcome(bytes: &[u8]) -> String {
