@@ -12,7 +12,7 @@ use crate::decimate::progressive::wedges::Wedges;
 use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
-use crate::mesh::{RepairReport, Repaired, Seams, Surface, repair};
+use crate::mesh::{RepairReport, Repaired, Seams, Surface, TooMany, check_counts, repair};
 use nephrite_formats::TriangleMesh;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -165,6 +165,16 @@ pub enum BuildError {
         found: u32,
         /// Vertices there are.
         n_vertices: usize,
+    },
+    /// More vertices or simplices than ids of 32 bits have room for, see [`mesh::MAX_SIMPLICES`](crate::mesh::MAX_SIMPLICES).
+    #[error("{found} {what}, there can be at most {limit}")]
+    TooLarge {
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        limit: usize,
     },
     /// Fusion was asked for of a surface.
     #[error("a surface has no tetrahedra to fuse")]
@@ -338,7 +348,14 @@ pub fn bounding_diagonal(mesh: &TriangleMesh) -> f64 {
     length(sub(high, low))
 }
 
+impl From<TooMany> for BuildError {
+    fn from((what, found, limit): TooMany) -> Self {
+        Self::TooLarge { what, found, limit }
+    }
+}
+
 fn check_mesh(mesh: &TriangleMesh) -> Result<(), BuildError> {
+    check_counts(mesh.positions.len(), mesh.triangles.len())?;
     let is_finite = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
     if let Some(vertex) = mesh.positions.iter().position(|p| !is_finite(p)) {
         return Err(BuildError::NotFinite { vertex });

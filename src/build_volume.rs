@@ -3,7 +3,7 @@
 use crate::build::BuildError;
 use crate::decimate::fusion::{self, FusionOptions};
 use crate::history::History;
-use crate::mesh::{TetrahedronRepairReport, repair_tetrahedra};
+use crate::mesh::{TetrahedronRepairReport, check_counts, repair_tetrahedra};
 use crate::{Observer, Phase, Progress};
 use nephrite_formats::{MeshError, TetrahedronMesh};
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,7 @@ pub fn build_volume(
     observer: Observer<'_>,
 ) -> Result<VolumeBuild, BuildError> {
     check_options(options)?;
+    check_counts(mesh.positions.len(), mesh.tetrahedra.len())?;
     mesh.check().map_err(|error| inconsistent(&error))?;
     let n_in = mesh.tetrahedra.len();
     let tell = |phase, n_triangles, error| {

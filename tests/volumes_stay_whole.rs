@@ -46,7 +46,9 @@ fn topology(surface: &TriangleMesh) -> (i64, usize) {
     }
     assert!(edges.values().all(|&n_faces| n_faces == 2), "the boundary is no surface");
     let n_components = roots.iter().enumerate().filter(|&(v, &root)| v == root as usize).count();
-    let characteristic = surface.positions.len() as i64 - edges.len() as i64 + surface.triangles.len() as i64;
+    let [n_vertices, n_edges, n_triangles] =
+        [surface.positions.len(), edges.len(), surface.triangles.len()].map(|n| i64::try_from(n).unwrap());
+    let characteristic = n_vertices - n_edges + n_triangles;
     (characteristic, n_components)
 }
 

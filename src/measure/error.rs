@@ -60,6 +60,18 @@ pub enum MeasureError {
         /// The origin found.
         origin: [f64; 3],
     },
+    /// More vertices or triangles than ids of 32 bits have room for.
+    #[error("{found} {what} of the {side}, there can be at most {limit}")]
+    TooLarge {
+        /// Which of the two meshes.
+        side: Side,
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        limit: usize,
+    },
     /// The meshes are too far apart for squares of their distance to be finite.
     #[error("coordinates reach {found:e}, at most {limit:e} can be measured")]
     TooFarApart {

@@ -13,6 +13,7 @@ use super::search::Tree;
 use crate::TriangleMesh;
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{self, Vector};
+use crate::mesh::check_counts;
 
 /// Coordinates above this are refused: sixth powers of lengths would come near the end of `f64`.
 const MAX_COORDINATE: f64 = 1e40;
@@ -117,6 +118,8 @@ fn check(mesh: &TriangleMesh, side: Side) -> Result<(), MeasureError> {
     if mesh.triangles.is_empty() {
         return Err(MeasureError::NoTriangles { side, n_vertices });
     }
+    check_counts(n_vertices, mesh.triangles.len())
+        .map_err(|(what, found, limit)| MeasureError::TooLarge { side, what, found, limit })?;
     if !mesh.origin.iter().all(|coordinate| coordinate.is_finite()) {
         return Err(MeasureError::OriginNotFinite { side, origin: mesh.origin });
     }

@@ -6,6 +6,7 @@
 
 mod filling;
 mod hole;
+mod limits;
 mod repair;
 mod seams;
 mod stars;
@@ -15,6 +16,7 @@ mod tetrahedra;
 
 pub use filling::Filling;
 pub use hole::{Hole, MAX_VALENCE, NoHole};
+pub use limits::{MAX_SIMPLICES, MAX_VERTICES, TooMany, check_counts};
 pub use repair::{RepairReport, Repaired, repair};
 pub use seams::Seams;
 pub use stars::{Stars, facing_edge};

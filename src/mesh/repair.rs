@@ -120,7 +120,7 @@ fn lowest(vertices: &[u32]) -> u32 {
     vertices.iter().copied().min().unwrap_or_default()
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "readers refuse meshes of more than u32::MAX vertices")]
+#[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
 fn vertex_count(mesh: &TriangleMesh) -> u32 {
     mesh.positions.len() as u32
 }

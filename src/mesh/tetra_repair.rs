@@ -95,7 +95,7 @@ fn is_degenerate([a, b, c, d]: [u32; 4]) -> bool {
 /// The first vertex at the position of each, `-0` equal to `0`.
 fn first_at_position(mesh: &TetrahedronMesh) -> Vec<u32> {
     let key = |v: u32| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits());
-    #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+    #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
     let mut order: Vec<u32> = (0..mesh.positions.len() as u32).collect();
     order.sort_unstable_by_key(|&v| (key(v), v));
     let mut firsts: Vec<u32> = order.clone();
@@ -107,7 +107,7 @@ fn first_at_position(mesh: &TetrahedronMesh) -> Vec<u32> {
 
 /// As `firsts`, but only where a tetrahedron has both vertices.
 fn first_in_tetrahedra(mesh: &TetrahedronMesh, firsts: &[u32]) -> Vec<u32> {
-    #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+    #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
     let mut roots: Vec<u32> = (0..firsts.len() as u32).collect();
     let find = |roots: &[u32], mut v: u32| {
         while roots[v as usize] != v {
@@ -125,7 +125,7 @@ fn first_in_tetrahedra(mesh: &TetrahedronMesh, firsts: &[u32]) -> Vec<u32> {
             }
         }
     }
-    #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+    #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
     (0..firsts.len() as u32).map(|v| find(&roots, v)).collect()
 }
 

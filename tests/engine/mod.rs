@@ -40,7 +40,8 @@ pub(crate) fn edge_faces(triangles: &[[u32; 3]]) -> BTreeMap<[u32; 2], usize> {
 /// Vertices - edges + triangles.
 pub(crate) fn euler_characteristic(triangles: &[[u32; 3]]) -> i64 {
     let vertices: BTreeSet<u32> = triangles.iter().flatten().copied().collect();
-    vertices.len() as i64 - edge_faces(triangles).len() as i64 + triangles.len() as i64
+    let count = |n: usize| i64::try_from(n).unwrap();
+    count(vertices.len()) - count(edge_faces(triangles).len()) + count(triangles.len())
 }
 
 /// Closed chains of edges that have one triangle.

@@ -32,7 +32,12 @@ impl BuildBar {
     /// Shows how far a build has come; breaks it off once somebody asked for that.
     pub(crate) fn observe(&self, progress: &Progress) -> ControlFlow<()> {
         let done = fraction_done(progress);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a part of the bar's steps"
+        )]
         let position = (done * BAR_STEPS as f64) as u64;
         self.bar.set_position(position);
         self.bar.set_prefix(phase_name(progress.phase));

@@ -159,10 +159,10 @@ fn big_endian_strips() -> Vec<u8> {
         bytes.extend(x.to_be_bytes());
         bytes.extend(y.to_be_bytes());
         bytes.extend(0.1_f64.to_be_bytes());
-        bytes.extend((i as i16 - 2).to_be_bytes());
+        bytes.extend((i16::try_from(i).unwrap() - 2).to_be_bytes());
     }
     let strip = [0, 1, 2, 3, -1, 0, 2, 1];
-    bytes.extend((strip.len() as i32).to_be_bytes());
+    bytes.extend(i32::try_from(strip.len()).unwrap().to_be_bytes());
     strip.iter().for_each(|index: &i32| bytes.extend(index.to_be_bytes()));
     bytes
 }
