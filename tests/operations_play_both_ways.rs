@@ -131,3 +131,20 @@ proptest! {
         prop_assert!(mesh.triangles().is_empty());
     }
 }
+
+#[test]
+fn an_edge_of_many_faces_comes_back() {
+    for n_faces in [63, 64, 65, 300] {
+        let mut mesh = TriangleMesh { positions: vec![[0.0; 3], [0.0, 0.0, 1.0]], ..TriangleMesh::default() };
+        for page in 0..n_faces {
+            let angle = f64::from(page) * std::f64::consts::TAU / f64::from(n_faces);
+            mesh.positions.push([angle.cos() as f32, angle.sin() as f32, 0.5]);
+            mesh.triangles.push([0, 1, page + 2]);
+        }
+        let build = decimate(&mesh, false);
+        let mut played = ProgressiveMesh::from_bytes(&encode(&build).unwrap().bytes).unwrap();
+        played.refine(usize::MAX);
+        let expected = shape(&build.mesh.positions, &build.mesh.triangles);
+        assert_eq!(shape(played.positions(), played.triangles()), expected, "{n_faces} faces");
+    }
+}

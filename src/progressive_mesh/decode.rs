@@ -65,6 +65,9 @@ pub(super) fn checksum(coded: &[u8]) -> u32 {
     neph::checksum(coded) as u32
 }
 
+/// What a stream may not make more of than [`Growth::may_move`] says.
+pub(super) const MOVES: &str = "triangles move from star to star without end";
+
 /// What has been read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Decoder {
@@ -119,6 +122,9 @@ impl Decoder {
                 if vertex == beside || self.growth.star(vertex).iter().any(shared) {
                     return Err(self.meaningless("a triangle that has a corner twice"));
                 }
+                if !self.growth.may_move(self.growth.star(vertex).len()) {
+                    return Err(self.meaningless(MOVES));
+                }
                 self.growth.vertex_merge(vertex, beside);
                 Ok(())
             }
@@ -160,6 +166,9 @@ impl Decoder {
             moved.extend(
                 part.iter().zip(0..).filter(|&(_, bit)| bits >> bit & 1 == 1).map(|(&triangle, _)| triangle),
             );
+        }
+        if !self.growth.may_move(moved.len()) {
+            return Err(self.meaningless(MOVES));
         }
         let mut link = std::mem::take(&mut self.link);
         self.growth.link(origin, &mut link);

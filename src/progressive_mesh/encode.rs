@@ -1,7 +1,7 @@
 //! Writing a stream.
 
 use super::StreamError;
-use super::decode::{ARRANGEMENTS, BLOCK_HEADER_BYTES, ESCAPE, FIRST_BLOCK, Header, LARGEST_BLOCK};
+use super::decode::{ARRANGEMENTS, BLOCK_HEADER_BYTES, ESCAPE, FIRST_BLOCK, Header, LARGEST_BLOCK, MOVES};
 use super::growth::{Growth, Kind};
 use super::plan::{Planned, plan};
 use super::planes::{Planes, difference, plane};
@@ -25,7 +25,8 @@ pub struct Encoded {
 ///
 /// # Errors
 ///
-/// [`StreamError::NoOperations`] for a build of another decimator.
+/// [`StreamError::NoOperations`] for a build of another decimator; [`StreamError::Meaningless`] for one whose stars of hundreds of
+/// thousands of triangles moved so often that no reader would follow.
 pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
     let trace = &build.passage.as_ref().ok_or(StreamError::NoOperations)?.trace;
     let mut writer = Writer::new(&build.mesh);
@@ -34,6 +35,11 @@ pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
     let mut block_len = FIRST_BLOCK;
     for operation in &planned {
         n_in_block += writer.put(operation);
+        // No reader would take it.
+        if !writer.growth.may_move(0) {
+            let operation = writer.growth.operations.len();
+            return Err(StreamError::Meaningless { operation, what: MOVES });
+        }
         if n_in_block >= block_len {
             writer.end_block(n_in_block);
             (n_in_block, block_len) = (0, (2 * block_len).min(LARGEST_BLOCK));

@@ -4,6 +4,14 @@
 use crate::mesh::Stars;
 use std::ops::Range;
 
+/// Moved triangles that a stream may have in any case, and for each of its operations. Honest operations move a handful; merging one
+/// large star from vertex to vertex would move it anew with every few bits.
+const MOVED_ALWAYS: usize = 1 << 20;
+const MOVED_PER_OPERATION: usize = 256;
+
+/// Most neighbours that a link names: a byte says which, and its last value none of them.
+const MAX_LINK_LEN: usize = u8::MAX as usize;
+
 /// What an operation does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -65,10 +73,19 @@ impl Growth {
         self.triangles[triangle as usize]
     }
 
-    /// Neighbours of `v` in the order in which its star names them, into `link`.
+    /// Whether so many triangles more may move with the next operation.
+    pub(super) fn may_move(&self, n_triangles: usize) -> bool {
+        let limit = MOVED_ALWAYS.saturating_add(MOVED_PER_OPERATION * (self.operations.len() + 1));
+        self.moved.len().saturating_add(n_triangles) <= limit
+    }
+
+    /// The first neighbours of `v` in the order in which its star names them, as many as a byte can name, into `link`.
     pub(super) fn link(&self, v: u32, link: &mut Vec<u32>) {
         link.clear();
         for &triangle in self.star(v) {
+            if link.len() >= MAX_LINK_LEN {
+                break;
+            }
             for corner in self.corners(triangle) {
                 if corner != v && !link.contains(&corner) {
                     link.push(corner);
@@ -148,4 +165,37 @@ impl Growth {
 )]
 fn count(len: usize) -> u32 {
     len as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_star_is_not_merged_for_ever() {
+        let mut growth = Growth::default();
+        growth.triangle([0, 1, 2], 4);
+        for _ in 0..3000 {
+            growth.triangle([0, 1, 2], 0);
+        }
+        let mut ends = [0, 3];
+        while growth.may_move(growth.star(ends[0]).len()) {
+            growth.vertex_merge(ends[0], ends[1]);
+            ends.reverse();
+        }
+        let limit = MOVED_ALWAYS + MOVED_PER_OPERATION * (growth.operations.len() + 1);
+        assert!(growth.moved.len() <= limit && growth.moved.len() + 3001 > limit);
+    }
+
+    #[test]
+    fn a_link_is_no_longer_than_a_byte_can_name() {
+        let mut growth = Growth::default();
+        growth.triangle([0, 1, 2], 3);
+        for v in 3..100_000 {
+            growth.triangle([0, v - 1, v], 1);
+        }
+        let mut link = Vec::new();
+        growth.link(0, &mut link);
+        assert!((255..=257).contains(&link.len()) && link[..4] == [1, 2, 3, 4]);
+    }
 }
