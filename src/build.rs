@@ -3,10 +3,11 @@
 use crate::bound::GlobalError;
 use crate::bound::certified::Certified;
 use crate::bound::estimate::{Estimate, Kind};
-use crate::decimate::jade::JadeOptions;
 use crate::decimate::jade::decimation::{Decimation, Workers};
+use crate::decimate::jade::placement::Moves;
 use crate::decimate::jade::rounds::run;
 use crate::decimate::jade::thresholds::Thresholds;
+use crate::decimate::jade::{JadeOptions, Placement};
 use crate::decimate::progressive::complex::Complex;
 use crate::decimate::progressive::wedges::Wedges;
 use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
@@ -199,6 +200,9 @@ pub enum BuildError {
         /// What was asked for.
         found: &'static str,
     },
+    /// Vertices were to move under something else than the proof that follows them.
+    #[error("vertices move only under the certified bound of the jade decimator")]
+    PlacementOfBound,
     /// The observer asked to stop.
     #[error("interrupted")]
     Interrupted,
@@ -237,7 +241,9 @@ pub fn build(
             let go_on = |decimation: &Decimation| {
                 tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
             };
-            let history = decimate(&mesh, points_and_looks, options, &go_on)?;
+            let (history, moves) = decimate(&mesh, points_and_looks, options, &go_on)?;
+            let moved = moves.into_iter().flat_map(|moves| moves.born);
+            let mesh = with_copies(mesh, moved.map(|(vertex, place)| (vertex, Some(place))));
             Ok(Build { mesh, history, repairs, passage: None })
         }
         Method::Fusion => Err(BuildError::NotAVolume),
@@ -248,7 +254,7 @@ pub fn build(
             };
             let (history, passage) = decimate_progressively(&mesh, points_and_looks, options, &go_on)?;
             Ok(Build {
-                mesh: with_copies(mesh, &passage.trace.copies),
+                mesh: with_copies(mesh, passage.trace.copies.iter().map(|&copied| (copied, None))),
                 history,
                 repairs,
                 passage: Some(passage),
@@ -287,11 +293,14 @@ fn decimate_progressively(
     Ok(decimation.finish())
 }
 
-/// The mesh with one vertex more for each of `copies`, which name the vertex that they are like.
-fn with_copies(mut mesh: TriangleMesh, copies: &[u32]) -> TriangleMesh {
-    for &copied in copies {
+/// The mesh with one vertex more for each of `copies`: the attributes of the vertex named, at the place given or its own.
+fn with_copies(
+    mut mesh: TriangleMesh,
+    copies: impl IntoIterator<Item = (u32, Option<[f32; 3]>)>,
+) -> TriangleMesh {
+    for (copied, place) in copies {
         let copied = copied as usize;
-        mesh.positions.push(mesh.positions[copied]);
+        mesh.positions.push(place.unwrap_or(mesh.positions[copied]));
         for attribute in &mut mesh.attributes {
             let stride = attribute.stride_bytes();
             attribute.bytes.extend_from_within(copied * stride..(copied + 1) * stride);
@@ -305,9 +314,16 @@ fn decimate(
     points_and_looks: Option<(Vec<u32>, Vec<u32>)>,
     options: &BuildOptions,
     go_on: &dyn Fn(&Decimation) -> bool,
-) -> Result<History, BuildError> {
+) -> Result<(History, Option<Moves>), BuildError> {
     let triangles = mesh.triangles.clone();
+    let moves =
+        (options.jade.placement == Placement::Best).then(|| Moves::new(&mesh.positions, triangles.len()));
     let (triangles, seams) = match points_and_looks {
+        // A vertex that moves is a new vertex at the same point, which only seams tell apart.
+        None if moves.is_some() => {
+            let looks = (0..).take(mesh.positions.len()).collect();
+            (triangles.clone(), Some(Seams::new(triangles, looks)))
+        }
         None => (triangles, None),
         Some((points, looks)) => {
             let over_points = triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
@@ -329,15 +345,16 @@ fn decimate(
         cos_feature_angle: options.feature_angle_degrees.to_radians().cos(),
         aspect_loss: options.jade.aspect_loss,
         c2: options.jade.c2,
+        moves,
         workers: Workers::new(),
     };
     let thresholds = Thresholds::new(options.max_error, bounding_diagonal(mesh), &options.jade);
     if !run(&mut decimation, thresholds, go_on) {
         return Err(BuildError::Interrupted);
     }
-    let Decimation { surface, seams, recorder, .. } = decimation;
+    let Decimation { surface, seams, recorder, moves, .. } = decimation;
     let vertices = |slot: u32, corners| seams.as_ref().map_or(corners, |seams| seams.corners(slot));
-    Ok(recorder.finish(surface.iter().map(|(slot, corners)| (slot, vertices(slot, corners)))))
+    Ok((recorder.finish(surface.iter().map(|(slot, corners)| (slot, vertices(slot, corners)))), moves))
 }
 
 /// Length of the diagonal of the mesh's bounding box, in mesh units.
@@ -375,7 +392,7 @@ fn check_options(options: &BuildOptions) -> Result<(), BuildError> {
     let BuildOptions {
         max_error,
         feature_angle_degrees: angle,
-        jade: JadeOptions { k, c1, c2, aspect_loss },
+        jade: JadeOptions { k, c1, c2, aspect_loss, placement },
         progressive: ProgressiveOptions { reduction, .. },
         ..
     } = *options;
@@ -383,6 +400,9 @@ fn check_options(options: &BuildOptions) -> Result<(), BuildError> {
         let found = if options.bound == Bound::Joint { "joint" } else { "removed" };
         let expected = "a certified or an accumulated error";
         return Err(BuildError::BoundOfMethod { method: "progressive", expected, found });
+    }
+    if placement == Placement::Best && (options.method, options.bound) != (Method::Jade, Bound::Certified) {
+        return Err(BuildError::PlacementOfBound);
     }
     let reduction = reduction.unwrap_or(1.0);
     check("reduction", "from 0 to 1", reduction, (0.0..=1.0).contains(&reduction))?;

@@ -3,19 +3,28 @@
 mod engine;
 
 use engine::build_all;
+use nephrite::decimate::jade::{JadeOptions, Placement};
 use nephrite::{Bound, BuildOptions, generate};
 
 #[test]
 fn one_two_and_seven_threads_agree() {
-    for bound in [Bound::Certified, Bound::Joint] {
-        let options = BuildOptions { bound, ..BuildOptions::default() };
+    let with = |bound, placement| BuildOptions {
+        bound,
+        jade: JadeOptions::of_placement(placement),
+        ..BuildOptions::default()
+    };
+    for options in [
+        with(Bound::Certified, Placement::Original),
+        with(Bound::Certified, Placement::Best),
+        with(Bound::Joint, Placement::Original),
+    ] {
         let mesh = generate::cosine(50);
         let on_threads = |n_threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
             pool.install(|| build_all(&mesh, &options))
         };
         let one = on_threads(1);
-        assert_eq!(one, on_threads(2), "{bound:?}");
-        assert_eq!(one, on_threads(7), "{bound:?}");
+        assert_eq!(one, on_threads(2), "{options:?}");
+        assert_eq!(one, on_threads(7), "{options:?}");
     }
 }

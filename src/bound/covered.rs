@@ -16,7 +16,7 @@ pub const MAX_CORNERS: usize = 11;
 pub struct Covered {
     /// The vertices, the one to be removed first.
     pub vertices: Vec<u32>,
-    /// Their positions.
+    /// Their positions in the input.
     pub points: Vec<Vector>,
     /// A bit per ring pair and vertex; empty where the hole is too large or has no average plane.
     sides: Vec<u64>,
@@ -50,7 +50,7 @@ impl Covered {
         self.vertices.clear();
         self.vertices.extend(vertices);
         self.points.clear();
-        self.points.extend(self.vertices.iter().map(|&v| surface.point(v)));
+        self.points.extend(self.vertices.iter().map(|&v| surface.origin(v)));
         self.sides.clear();
         self.ring.clear();
         let normal = hole.average_normal();

@@ -35,6 +35,24 @@ impl Seams {
         self.vertices[slot as usize]
     }
 
+    /// The one vertex that all triangles at `point` have there; `None` where they have several.
+    pub fn only_vertex(&self, surface: &Surface, point: u32) -> Option<u32> {
+        let mut vertices = surface.star(point).iter().map(|&slot| self.vertex(surface, slot, point));
+        let first = vertices.next()?;
+        vertices.all(|v| v == first).then_some(first)
+    }
+
+    /// Gives the triangles at `point` the vertex `new`, which looks like `old` and has the next number.
+    pub fn rename(&mut self, surface: &Surface, point: u32, [old, new]: [u32; 2]) {
+        debug_assert_eq!(new as usize, self.looks.len());
+        self.looks.push(self.looks[old as usize]);
+        for &slot in surface.star(point) {
+            for v in self.vertices[slot as usize].iter_mut().filter(|v| **v == old) {
+                *v = new;
+            }
+        }
+    }
+
     /// Puts a triangle with these vertices into `slot`.
     pub fn set(&mut self, slot: u32, vertices: [u32; 3]) {
         self.vertices[slot as usize] = vertices;

@@ -13,6 +13,8 @@ const GONE: [u32; 3] = [u32::MAX; 3];
 #[derive(Clone, Debug)]
 pub struct Surface {
     positions: Vec<[f32; 3]>,
+    /// Where the vertices were at the start; empty while none has moved.
+    origins: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     stars: Stars,
     n_triangles: usize,
@@ -22,7 +24,7 @@ impl Surface {
     /// A surface over `positions` in which slot `t` holds `triangles[t]`.
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let stars = Stars::new(positions.len(), &triangles);
-        Self { n_triangles: triangles.len(), positions, triangles, stars }
+        Self { n_triangles: triangles.len(), positions, origins: vec![], triangles, stars }
     }
 
     /// Vertices, alive or not.
@@ -49,6 +51,20 @@ impl Surface {
     #[inline]
     pub fn point(&self, v: u32) -> Vector {
         widen(self.positions[v as usize])
+    }
+
+    /// Position of vertex `v` at the start.
+    #[inline]
+    pub fn origin(&self, v: u32) -> Vector {
+        self.origins.get(v as usize).map_or_else(|| self.point(v), |&p| widen(p))
+    }
+
+    /// Moves vertex `v`. O(1), and O(vertices) the first time.
+    pub fn move_vertex(&mut self, v: u32, position: [f32; 3]) {
+        if self.origins.is_empty() {
+            self.origins.clone_from(&self.positions);
+        }
+        self.positions[v as usize] = position;
     }
 
     /// Corners of the triangle in `slot`; all `u32::MAX` once the slot is empty.

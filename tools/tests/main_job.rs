@@ -177,6 +177,18 @@ fn every_bound_builds() {
 }
 
 #[test]
+fn vertices_move_when_asked_and_only_under_the_proof() {
+    let (place, kept) = built("torus --segments 60 --sides 30");
+    let moved = place.json("build in.ply -o moved.neph --placement best");
+    assert!(number(&moved, "triangles_stored") > number(&kept, "triangles_stored"));
+    assert_eq!(moved["bounding_diagonal"], kept["bounding_diagonal"]);
+    place.done("verify moved.neph --bound");
+    assert!(place.done("info moved.neph").contains("best placement"));
+    let refused = place.failure("build in.ply -o no.neph --placement best --bound joint");
+    assert!(refused.contains("certified bound"), "{refused}");
+}
+
+#[test]
 fn bench_stands_beside_memcpy() {
     let (place, _) = built("cosine --side 60");
     let bench = place.json("bench out.neph");

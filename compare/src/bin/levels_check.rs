@@ -6,6 +6,7 @@
 //! can measure them: `metro_check.py` does it with PyMeshLab's Metro.
 
 use clap::Parser;
+use nephrite::decimate::jade::{JadeOptions, Placement};
 use nephrite::measure::{MeasureOptions, measure};
 use nephrite::{BuildOptions, TriangleMesh};
 use nephrite_compare::statistics::{median, percentile};
@@ -28,6 +29,10 @@ struct Arguments {
     /// Samples on the edges, and as many in the triangles, of each surface
     #[arg(long, default_value_t = 200_000)]
     samples: usize,
+
+    /// Let vertices move to where the error is least
+    #[arg(long)]
+    best_placement: bool,
 
     /// Folder for the levels as PLY files, and levels.json
     #[arg(long, value_name = "FOLDER")]
@@ -125,7 +130,9 @@ fn run(arguments: &Arguments) -> Result<ExitCode, CompareError> {
 
 fn check_mesh(path: &Path, arguments: &Arguments) -> Result<Vec<Checked>, CompareError> {
     let mesh = load(path)?;
-    let build = build_lod(&mesh, &BuildOptions::default(), KeptLevels::Usual)?;
+    let placement = if arguments.best_placement { Placement::Best } else { Placement::Original };
+    let options = BuildOptions { jade: JadeOptions::of_placement(placement), ..BuildOptions::default() };
+    let build = build_lod(&mesh, &options, KeptLevels::Usual)?;
     let options = MeasureOptions { n_samples: arguments.samples, ..MeasureOptions::default() };
     let levels = spread_levels(&build.lod, arguments.levels).into_iter();
     levels

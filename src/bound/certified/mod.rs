@@ -18,6 +18,7 @@
 
 pub mod chains;
 pub mod dual_tree;
+pub mod images;
 mod labels;
 mod removal;
 pub mod source;

@@ -138,7 +138,7 @@ impl Transfer {
     fn reroute(&mut self, removal: Removal<'_>, edge: u32) -> f64 {
         let Removal { certified, replacement: Replacement { surface, hole, .. }, .. } = removal;
         let [low, high] = certified.source.ends(edge);
-        let segment = [surface.point(low), surface.point(high)];
+        let segment = [surface.origin(low), surface.origin(high)];
         self.old.clear();
         self.old.extend(certified.chains.of(edge));
         if self.old.is_empty() {

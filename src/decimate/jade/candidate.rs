@@ -4,6 +4,7 @@ use super::classify::{Class, classify};
 use super::fit::fit;
 use super::flip::flip_edges;
 use super::triangulate::{Polygons, triangulate};
+use crate::bound::certified::images::Image;
 use crate::bound::certified::{Certified, Transfer};
 use crate::bound::covered::Covered;
 use crate::bound::estimate::Estimate;
@@ -48,6 +49,8 @@ pub struct Scratch {
     pub covered: Covered,
     /// Buffers for carrying the certified map along.
     pub transfer: Transfer,
+    /// What is mapped onto the star of a vertex that may move.
+    pub images: Vec<Image>,
 }
 
 /// Judges the removal of `v` under `limits`; leaves hole and filling in `scratch`.
@@ -96,7 +99,7 @@ fn judge_certified(
     limits: Limits,
     scratch: &mut Scratch,
 ) -> Option<Errors> {
-    let Scratch { hole, filling, polygons, covered, transfer } = scratch;
+    let Scratch { hole, filling, polygons, covered, transfer, .. } = scratch;
     let surface = situation.surface;
     covered.gather(surface, hole, certified.vertices_in(hole));
     let global = match fit(surface, hole, class, covered, polygons, filling) {

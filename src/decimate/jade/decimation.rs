@@ -1,6 +1,7 @@
 //! The state of a decimation between two removals.
 
 use super::candidate::{Scratch, Situation};
+use super::placement::Moves;
 use crate::bound::GlobalError;
 use crate::history::Recorder;
 use crate::mesh::{Seams, Surface};
@@ -22,6 +23,8 @@ pub struct Decimation {
     pub aspect_loss: f64,
     /// See [`super::JadeOptions::c2`].
     pub c2: f64,
+    /// Vertices that were born, where they may move.
+    pub moves: Option<Moves>,
     /// Buffers of the threads.
     pub workers: Workers,
 }

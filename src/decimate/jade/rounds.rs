@@ -2,6 +2,7 @@
 
 use super::candidate::{Verdict, judge};
 use super::decimation::Decimation;
+use super::placement;
 use super::removal::{Plan, plan};
 use super::thresholds::Thresholds;
 use crate::bound::Limits;
@@ -54,6 +55,13 @@ pub fn run(
             let picked = pick(decimation, &mut candidates, round, worklist);
             worklist = remove_all(decimation, &mut candidates, limits, &picked);
         }
+        if placement::is_due(decimation) {
+            let moved = placement::improve(decimation, &candidates.open);
+            candidates.forget_around(&decimation.surface, &moved);
+            if !moved.is_empty() {
+                continue;
+            }
+        }
         let Some(next) = thresholds.advance(candidates.least_needed()) else { return true };
         limits = next;
     }
@@ -80,6 +88,15 @@ impl Candidates {
     /// The least local limit that could admit anything.
     fn least_needed(&self) -> f64 {
         self.open.iter().map(|&v| f64::from(self.needed[v as usize])).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Forgets what is known of the given vertices and their neighbours, all alive.
+    fn forget_around(&mut self, surface: &Surface, vertices: &[u32]) {
+        for &v in vertices {
+            for &slot in surface.star(v) {
+                surface.corners(slot).into_iter().for_each(|neighbour| self.forget(neighbour));
+            }
+        }
     }
 
     fn forget(&mut self, v: u32) {

@@ -73,6 +73,8 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         Some(n) => format!("{bound} down to {} triangles, then accumulated", figures::count(n)),
         None => bound.clone(),
     };
+    let moved =
+        if metadata.provenance.options["jade"]["placement"] == "best" { ", best placement" } else { "" };
     let attributes: Vec<_> = lod.attributes().map(|view| view.name.to_owned()).collect();
     let list = figures::list(&[
         (
@@ -88,7 +90,7 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         ("diagonal", figures::significant(lod.bounding_diagonal())),
         ("topology", topology(&metadata.provenance.topology)),
         ("error leaps", inflection_list(lod)),
-        ("built by", format!("{}, {method}, bound {bound}", metadata.generator)),
+        ("built by", format!("{}, {method}, bound {bound}{moved}", metadata.generator)),
         (
             "stored",
             format!(
