@@ -24,7 +24,18 @@ fn threads_do_not_show() {
 #[test]
 fn surfaces_repeat() {
     let place = Workplace::new();
-    for kind in ["cosine", "sphere", "torus", "terrain", "plate", "cube", "cylinder", "moebius"] {
+    for kind in [
+        "cosine",
+        "sphere",
+        "torus",
+        "terrain",
+        "plate",
+        "shell",
+        "heat-exchanger",
+        "cube",
+        "cylinder",
+        "moebius",
+    ] {
         place.done(&format!("generate {kind} -o a.ply"));
         place.done(&format!("generate {kind} -o b.ply"));
         assert_eq!(place.read("a.ply"), place.read("b.ply"), "{kind}");

@@ -64,7 +64,7 @@ fn help_names_every_command_and_option() {
         assert!(help.contains(option), "{help}");
     }
     let help = place.done("generate --help");
-    for kind in ["cosine", "sphere", "torus", "terrain", "plate"] {
+    for kind in ["cosine", "sphere", "torus", "terrain", "plate", "shell", "heat-exchanger"] {
         assert!(help.contains(kind), "{help}");
     }
 }

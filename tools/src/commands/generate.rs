@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Subcommand, value_parser};
-use nephrite::generate;
+use nephrite::generate::{self, Drilling};
 use nephrite::{TetrahedronMesh, TriangleMesh};
 use serde_json::json;
 
@@ -26,6 +26,44 @@ struct Output {
     /// Mesh to write; its extension chooses the format
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+}
+
+/// Squares, holes and edges of a drilled part; without them, those of the paper's part with seven holes.
+#[derive(Clone, Copy, Debug, clap::Args)]
+struct DrillingArguments {
+    /// Squares along x; 3 by default
+    #[arg(long, value_name = "N", value_parser = counts(1, 400))]
+    columns: Option<u32>,
+    /// Squares along y; 3 by default
+    #[arg(long, value_name = "N", value_parser = counts(1, 400))]
+    rows: Option<u32>,
+    /// Squares with a hole, spread evenly; 7 by default, or all where there are fewer
+    #[arg(long, value_name = "N", value_parser = counts(0, 160_000))]
+    holes: Option<u32>,
+    /// Sides of each hole, rounded up to a multiple of four; a plate's are 40 by default, a shell's 20
+    #[arg(long, value_name = "N", value_parser = counts(4, 1024))]
+    segments: Option<u32>,
+    /// Edges along the side of each square; 4 by default for a plate, 12 for a shell
+    #[arg(long, value_name = "N", value_parser = counts(1, 24))]
+    pieces: Option<u32>,
+    /// Rings of triangles from a hole to its square; 1 by default for a plate, 3 for a shell
+    #[arg(long, value_name = "N", value_parser = counts(1, 6))]
+    face_rings: Option<u32>,
+}
+
+impl DrillingArguments {
+    /// What is said, in the place of what is usual.
+    fn or(self, usual: Drilling) -> Drilling {
+        Drilling {
+            columns: self.columns.unwrap_or(usual.columns),
+            rows: self.rows.unwrap_or(usual.rows),
+            holes: self.holes.unwrap_or(usual.holes),
+            segments: self.segments.unwrap_or(usual.segments),
+            pieces: self.pieces.unwrap_or(usual.pieces),
+            face_rings: self.face_rings.unwrap_or(usual.face_rings),
+            wall_rings: usual.wall_rings,
+        }
+    }
 }
 
 fn counts(least: u32, most: u32) -> RangedI64ValueParser<u32> {
@@ -72,16 +110,33 @@ enum Kind {
         #[command(flatten)]
         to: Output,
     },
-    /// A plate with round holes through it, as a CAD system exports one
+    /// A plate with round holes through it, as a CAD system exports one; 3 x 3 squares with 7 holes make 2,624 triangles
     Plate {
-        /// Holes along x
-        #[arg(long, default_value_t = 4, value_parser = counts(1, 400))]
+        #[command(flatten)]
+        drilling: DrillingArguments,
+        /// Rings of triangles from one face to the other, in each hole; 3 by default
+        #[arg(long, default_value_t = Drilling::PLATE.wall_rings, hide_default_value = true, value_parser = counts(1, 6))]
+        wall_rings: u32,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// A thin bent shell with round holes; 3 x 3 squares with 7 holes make 1,132 triangles
+    Shell {
+        #[command(flatten)]
+        drilling: DrillingArguments,
+        #[command(flatten)]
+        to: Output,
+    },
+    /// Two plates and the tubes that lead through both
+    HeatExchanger {
+        /// Tubes along x
+        #[arg(long, default_value_t = 15, value_parser = counts(1, 400))]
         columns: u32,
-        /// Holes along y
-        #[arg(long, default_value_t = 3, value_parser = counts(1, 400))]
+        /// Tubes along y
+        #[arg(long, default_value_t = 5, value_parser = counts(1, 400))]
         rows: u32,
-        /// Sides of each hole, rounded up to a multiple of four
-        #[arg(long, default_value_t = 64, value_parser = counts(4, 1024))]
+        /// Sides of each tube, rounded up to a multiple of four
+        #[arg(long, default_value_t = 16, value_parser = counts(4, 1024))]
         segments: u32,
         #[command(flatten)]
         to: Output,
@@ -148,6 +203,8 @@ impl Kind {
             | Self::Torus { to, .. }
             | Self::Terrain { to, .. }
             | Self::Plate { to, .. }
+            | Self::Shell { to, .. }
+            | Self::HeatExchanger { to, .. }
             | Self::Cube { to, .. }
             | Self::Cylinder { to, .. }
             | Self::Box { to, .. }
@@ -164,7 +221,13 @@ impl Kind {
             Self::Sphere { triangles, .. } => generate::sphere(generate::sphere_frequency(triangles)),
             Self::Torus { segments, sides, .. } => generate::torus(segments, sides),
             Self::Terrain { side, seed, .. } => generate::terrain(side, seed),
-            Self::Plate { columns, rows, segments, .. } => generate::plate(columns, rows, segments),
+            Self::Plate { drilling, wall_rings, .. } => {
+                generate::drilled_plate(&Drilling { wall_rings, ..drilling.or(Drilling::PLATE) })
+            }
+            Self::Shell { drilling, .. } => generate::shell(&drilling.or(Drilling::SHELL)),
+            Self::HeatExchanger { columns, rows, segments, .. } => {
+                generate::heat_exchanger(columns, rows, segments)
+            }
             Self::Cube { segments, .. } => generate::cuboid(segments),
             Self::Cylinder { segments, rings, .. } => generate::cylinder(segments, rings),
             Self::Moebius { segments, rows, .. } => generate::moebius(segments, rows),
