@@ -13,7 +13,9 @@ use crate::decimate::progressive::wedges::Wedges;
 use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
-use crate::mesh::{RepairReport, Repaired, Seams, Surface, TooMany, check_counts, repair};
+use crate::mesh::{
+    RepairReport, Repaired, Seams, Surface, TooMany, along_a_curve, check_counts, repair,
+};
 use nephrite_formats::TriangleMesh;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -231,10 +233,12 @@ pub fn build(
     if !tell(Phase::Repair, n_triangles_in, 0.0) {
         return Err(BuildError::Interrupted);
     }
-    let Repaired { mesh, points, looks, report: repairs } = repair(mesh);
-    if mesh.triangles.is_empty() {
+    let repaired = repair(mesh);
+    if repaired.mesh.triangles.is_empty() {
         return Err(BuildError::NoTriangles { n_triangles: n_triangles_in });
     }
+    let repaired = if options.method == Method::Progressive { along_a_curve(repaired) } else { repaired };
+    let Repaired { mesh, points, looks, report: repairs } = repaired;
     let points_and_looks = points.zip(looks);
     match options.method {
         Method::Jade => {

@@ -10,11 +10,14 @@
 )]
 
 use nephrite::decimate::progressive::events::EventKind;
+use nephrite::generate::Drilling;
 use nephrite::history::NEVER;
 use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build, generate};
-use std::collections::HashSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+
+#[path = "support/every_step.rs"]
+mod every_step;
 
 fn decimate(mesh: &TriangleMesh, change: impl FnOnce(&mut BuildOptions)) -> Build {
     let mut options =
@@ -23,50 +26,8 @@ fn decimate(mesh: &TriangleMesh, change: impl FnOnce(&mut BuildOptions)) -> Buil
     build(mesh, &options, &|_| ControlFlow::Continue(())).unwrap()
 }
 
-/// Goes through the history step by step.
 fn check(name: &str, build: &Build) {
-    build.history.check().unwrap_or_else(|error| panic!("{name}: {error}"));
-    let history = &build.history;
-    let n_vertices = build.mesh.positions.len();
-    assert_eq!(history.vertex_death.len(), n_vertices, "{name}");
-    assert!(build.mesh.positions.as_flattened().iter().all(|x| x.is_finite()), "{name}");
-    let n_steps = history.errors.len();
-    let (mut births, mut deaths) = (vec![vec![]; n_steps], vec![vec![]; n_steps]);
-    for (simplex, (&birth, &death)) in history.birth.iter().zip(&history.death).enumerate() {
-        births[birth as usize].push(simplex);
-        if death != NEVER {
-            deaths[death as usize].push(simplex);
-        }
-    }
-    let mut alive = HashSet::new();
-    let mut n_before = usize::MAX;
-    for step in 0..n_steps {
-        for &simplex in &deaths[step] {
-            assert!(alive.remove(&key(history.simplices[simplex])), "{name}: step {step}");
-        }
-        for &simplex in &births[step] {
-            let triangle = history.simplices[simplex];
-            let [a, b, c] = triangle;
-            assert!(a != b && b != c && c != a, "{name}: {triangle:?} at step {step}");
-            assert!(alive.insert(key(triangle)), "{name}: {triangle:?} is there twice at step {step}");
-        }
-        let slack = n_before.saturating_sub(alive.len());
-        assert!(n_before == usize::MAX || (alive.len() <= n_before && slack <= 2), "{name}: step {step}");
-        n_before = alive.len();
-    }
-    assert!(alive.is_empty(), "{name}: {} triangles are left", alive.len());
-}
-
-/// The triangle from its least corner on, in its orientation.
-fn key(triangle: [u32; 3]) -> [u32; 3] {
-    let [a, b, c] = triangle;
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
+    every_step::check(build, |what| panic!("{name}: {what}"));
 }
 
 #[test]
@@ -136,28 +97,80 @@ fn a_reduction_is_met_within_one_operation() {
     }
 }
 
+/// Triangles of the first step with at most `n` of them.
+fn first_with_at_most(build: &Build, n: usize) -> Vec<[u32; 3]> {
+    let history = &build.history;
+    let alive = |step: u32| {
+        let lifetimes = history.birth.iter().zip(&history.death).zip(&history.simplices);
+        let alive = lifetimes.filter(move |((birth, death), _)| **birth <= step && step < **death);
+        alive.map(|(_, &simplex)| simplex).collect::<Vec<[u32; 3]>>()
+    };
+    // Counts never rise.
+    let (mut low, mut high) = (0, history.errors.len() as u32 - 1);
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if alive(middle).len() <= n { high = middle } else { low = middle + 1 }
+    }
+    alive(low)
+}
+
+/// Triangles of a flat part's upper face (above height 1), its lower one, and those that belong to neither.
+fn by_face(build: &Build, triangles: &[[u32; 3]]) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for triangle in triangles {
+        let heights = triangle.map(|v| build.mesh.positions[v as usize][2]);
+        let face = if heights[0] != heights[1] || heights[1] != heights[2] {
+            2
+        } else {
+            usize::from(heights[0] < 1.0)
+        };
+        counts[face] += 1;
+    }
+    counts
+}
+
+#[test]
+fn the_papers_plate_and_shell_reach_its_reductions() {
+    for (name, mesh) in [
+        ("plate", generate::drilled_plate(&Drilling::PLATE)),
+        ("shell", generate::shell(&Drilling::SHELL)),
+        ("heat exchanger", generate::heat_exchanger(15, 5, 16)),
+    ] {
+        for pre_split in [false, true] {
+            for reduction in [0.5, 0.75, 0.9, 1.0] {
+                let build = decimate(&mesh, |options| {
+                    options.progressive.reduction = Some(reduction);
+                    options.progressive.pre_split = pre_split;
+                });
+                let left = build.history.death.iter().filter(|&&death| death == NEVER).count() as f64;
+                let wished = (mesh.triangles.len() as f64 * (1.0 - reduction)).floor();
+                assert!(left <= wished && left + 2.0 > wished, "{name}: {left} for {wished}");
+            }
+        }
+    }
+}
+
 #[test]
 fn both_faces_of_a_split_plate_outlive_its_holes() {
-    let mesh = generate::plate(3, 2, 16);
-    let build = decimate(&mesh, |options| options.progressive.pre_split = true);
-    let passage = build.passage.as_ref().unwrap();
-    assert!(passage.events.count(EventKind::HoleClosed) >= 12, "{:?}", passage.counts);
-    let history = &build.history;
-    let four = (0..history.errors.len() as u32)
-        .map(|step| {
-            let lifetimes = history.birth.iter().zip(&history.death);
-            let at = |(i, (&birth, &death))| (birth <= step && step < death).then_some(i);
-            lifetimes.enumerate().filter_map(at).collect::<Vec<usize>>()
-        })
-        .find(|alive| alive.len() <= 4)
-        .unwrap();
-    let height = |simplex: &usize| {
-        let heights = history.simplices[*simplex].map(|v| build.mesh.positions[v as usize][2]);
-        assert_eq!((heights[0], heights[1]), (heights[1], heights[2]), "a triangle of a side is left");
-        heights[0] > 1.0
-    };
-    let on_top = four.iter().filter(|simplex| height(simplex)).count();
-    assert_eq!((four.len(), on_top), (4, 2));
+    for drilling in [Drilling::PLATE, Drilling::WASHER, Drilling::of_every_square(3, 2, 16)] {
+        let mesh = generate::drilled_plate(&drilling);
+        let build = decimate(&mesh, |options| options.progressive.pre_split = true);
+        let passage = build.passage.as_ref().unwrap();
+        let n_rims = 2 * drilling.holes as usize;
+        assert!(passage.events.count(EventKind::HoleClosed) >= n_rims, "{:?}", passage.counts);
+        let last = first_with_at_most(&build, 4);
+        assert_eq!(by_face(&build, &last), [2, 2, 0], "{drilling:?}");
+        // Each face is a square again, with its corners at those of the plate.
+        let size = [drilling.columns, drilling.rows].map(|n| 10.0 * n as f32);
+        for triangle in last {
+            for [x, y, _] in triangle.map(|v| build.mesh.positions[v as usize]) {
+                assert!(
+                    [0.0, size[0]].contains(&x) && [0.0, size[1]].contains(&y),
+                    "{x} {y} of {drilling:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

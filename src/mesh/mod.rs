@@ -4,6 +4,7 @@
 //! is being simplified, with the star of every vertex at hand; a [`Hole`] is such a star on its way out, and a
 //! [`Filling`] what closes it.
 
+mod curve;
 mod filling;
 mod hole;
 mod limits;
@@ -14,6 +15,7 @@ mod surface;
 mod tetra_repair;
 mod tetrahedra;
 
+pub use curve::along_a_curve;
 pub use filling::Filling;
 pub use hole::{Hole, MAX_VALENCE, NoHole};
 pub use limits::{MAX_SIMPLICES, MAX_VERTICES, TooMany, check_counts};

@@ -1,12 +1,13 @@
 //! Writing: everything is laid out first, then streamed in one pass, and the head is filled in at the end.
 
-use super::arrange::{Grid, VertexOrder, bounds};
+use super::arrange::VertexOrder;
 use super::attributes::AttributeSections;
 use super::body::BodyWriter;
 use super::compact::CompactSlots;
 use super::pieces::Pieces;
 use super::{Metadata, Provenance, Vertices, WriteError};
 use crate::History;
+use crate::geometry::morton::{Grid, bounds};
 use crate::history::Levels;
 use crate::tree::{Layout, Run};
 use crate::vertex_cache::FanOrder;

@@ -7,10 +7,9 @@ use super::classify::{Class, Geometry};
 use super::complex::Complex;
 use super::error::{FEW, actual_error, fan_of};
 use super::ring::Ring;
-use crate::geometry::vector::{cross, dot, length_sq, sub};
+use super::shadow::Shadow;
+use crate::geometry::vector::{length_sq, sub};
 
-/// Sines below this count as no turn at all: the fan's triangle would be a line.
-const LEAST_SINE: f64 = 1e-6;
 /// Stars of more triangles are not walked to mark their neighbours.
 const MARKED_VALENCE: usize = 64;
 /// Edges that are tried at a vertex, the shortest ones: finding them all at one of a hundred thousand would take its square.
@@ -65,51 +64,97 @@ impl Marks {
     }
 }
 
+/// A vertex with its surroundings, whose collapse is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate<'a> {
+    /// The mesh.
+    pub complex: &'a Complex,
+    /// The vertex and its star.
+    pub ring: &'a Ring,
+    /// The same in space.
+    pub geometry: &'a Geometry,
+    /// What it is.
+    pub class: Class,
+}
+
 /// The collapse of the ring's centre along the valid edge that leaves the least error; along the shortest valid one where
 /// there are more than [`FEW`] triangles. O(valence^3) for few, O(valence) for others.
-pub fn best_valid(
-    complex: &Complex,
-    ring: &Ring,
-    geometry: &Geometry,
-    class: Class,
-    marks: &mut Marks,
-) -> Option<Collapse> {
+pub fn best_valid(candidate: Candidate<'_>, shadow: &mut Shadow, marks: &mut Marks) -> Option<Collapse> {
+    let Candidate { ring, geometry, class, .. } = candidate;
     let last = ring.vertices.len().checked_sub(1)?;
-    let all = 0..if class == Class::CrackTip { last } else { last + 1 };
     let ends = [0, last];
+    shadow.gather(ring, geometry);
     match class {
         Class::Empty | Class::NonManifold | Class::Corner => None,
-        Class::InteriorEdge(ends) => best_of(complex, ring, geometry, ends.into_iter(), marks),
-        Class::Boundary => best_of(complex, ring, geometry, ends.into_iter(), marks),
-        Class::Degenerate if !ring.is_cycle() => best_of(complex, ring, geometry, ends.into_iter(), marks),
-        Class::Simple | Class::Degenerate => best_of(complex, ring, geometry, all, marks),
+        Class::InteriorEdge(ends) => best_of(candidate, shadow, ends.into_iter(), marks),
+        Class::Boundary => best_of(candidate, shadow, ends.into_iter(), marks),
+        Class::Degenerate if !ring.is_cycle() => best_of(candidate, shadow, ends.into_iter(), marks),
+        Class::Simple | Class::Degenerate => best_of(candidate, shadow, 0..=last, marks),
         Class::CrackTip => {
-            let n_around = last;
-            nearest_first(geometry, all)
-                .find(|&into| is_star_shaped(geometry, n_around, into))
-                .map(|into| Collapse { into, contact: Contact::None, distance: 0.0 })
+            shadow.close_crack();
+            nearest_first(geometry, 0..last).find(|&into| shadow.is_valid_fan(into)).map(|into| Collapse {
+                into,
+                contact: Contact::None,
+                distance: 0.0,
+            })
         }
     }
 }
 
+/// Of few triangles, the candidate with the least error; of many, the nearest valid one. How a fan would meet the rest of the
+/// mesh is asked last, of the one that would be taken.
 fn best_of(
-    complex: &Complex,
-    ring: &Ring,
-    geometry: &Geometry,
-    candidates: impl Iterator<Item = usize> + Clone,
+    Candidate { complex, ring, geometry, .. }: Candidate<'_>,
+    shadow: &Shadow,
+    neighbors: impl Iterator<Item = usize> + Clone,
     marks: &mut Marks,
 ) -> Option<Collapse> {
-    let n_around = ring.vertices.len();
-    let check = |into: usize, marks: &mut Marks| {
-        let is_valid = is_star_shaped(geometry, n_around, into);
-        let contact = if is_valid { contact(complex, ring, into, marks)? } else { return None };
-        Some(Collapse { into, contact, distance: actual_error(ring, geometry, into) })
-    };
     if ring.len() > FEW {
-        return nearest_first(geometry, candidates).find_map(|into| check(into, marks));
+        return nearest_first(geometry, neighbors).find_map(|into| {
+            let contact =
+                if shadow.is_valid_fan(into) { contact(complex, ring, into, marks)? } else { return None };
+            let distance = actual_error(ring, geometry, into, f64::INFINITY)?;
+            Some(Collapse { into, contact, distance })
+        });
     }
-    let valid = candidates.filter_map(|into| check(into, marks));
-    valid.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    // A star of few triangles has at most one neighbour more than triangles: fewer than a word has bits.
+    let mut excluded = 0_u32;
+    loop {
+        let mut best: Option<(usize, f64)> = None;
+        for into in neighbors.clone() {
+            if excluded >> into & 1 == 1 {
+                continue;
+            }
+            if !shadow.is_valid_fan(into) {
+                excluded |= 1 << into;
+                continue;
+            }
+            let limit = best.map_or(f64::INFINITY, |(_, distance)| distance);
+            let distance = if shadow.is_height_field() {
+                shadow.height_over_fan(into, limit)
+            } else {
+                actual_error(ring, geometry, into, limit)
+            };
+            best = distance.map(|distance| (into, distance)).or(best);
+        }
+        let (into, distance) = best?;
+        if let Some(contact) = contact(complex, ring, into, marks) {
+            return Some(Collapse { into, contact, distance });
+        }
+        excluded |= 1 << into;
+    }
+}
+
+/// The collapse into neighbour `into`, known to leave this distance, unless the mesh around has made it impossible since.
+pub fn still_valid(
+    complex: &Complex,
+    ring: &Ring,
+    (into, distance): (u32, f64),
+    marks: &mut Marks,
+) -> Option<Collapse> {
+    let into = ring.vertices.iter().position(|&r| r == into)?;
+    let contact = contact(complex, ring, into, marks)?;
+    Some(Collapse { into, contact, distance })
 }
 
 /// Candidates by their distance. Each is found by one pass, since the first one usually will do.
@@ -125,43 +170,6 @@ fn nearest_first(
         Some(last.1)
     });
     by_length.take(MAX_TRIED)
-}
-
-/// The half-space comparison: every plane through neighbour `into` and another neighbour, along the average normal, has the
-/// loop's vertices before that one on one side and those behind it on the other.
-///
-/// Done as the paper has it that takes `n^2` plane equations. Seen from `into`, the loop must turn one way only, and no part
-/// of it that a plane looks at may turn by half a circle; that is `3 n` of them. A fan of a single triangle, which no plane
-/// cuts, must not be turned over either.
-fn is_star_shaped(geometry: &Geometry, n_around: usize, into: usize) -> bool {
-    let n_others = n_around - 1;
-    if n_others < 2 {
-        return true;
-    }
-    let normal = geometry.plane.normal;
-    let normal_sq = length_sq(normal);
-    let target = geometry.points[into];
-    let spoke = |k: usize| {
-        let at = into + k;
-        sub(geometry.points[if at < n_around { at } else { at - n_around }], target)
-    };
-    let turns = |a, b| {
-        let turn = dot(normal, cross(a, b));
-        let least_sq = LEAST_SINE * LEAST_SINE * normal_sq * length_sq(a) * length_sq(b);
-        if geometry.is_degenerate { turn >= 0.0 } else { turn > 0.0 && turn * turn > least_sq }
-    };
-    let (first, second) = (spoke(1), spoke(2));
-    let mut before = first;
-    for k in 2..=n_others {
-        let this = spoke(k);
-        let within_half =
-            (k == n_others || turns(first, this)) && (k < n_others || k == 2 || turns(second, this));
-        if !turns(before, this) || !within_half {
-            return false;
-        }
-        before = this;
-    }
-    true
 }
 
 /// How the fan from neighbour `into` would meet the rest of the mesh; nothing if one of its triangles is there already.
@@ -198,38 +206,4 @@ fn contact(complex: &Complex, ring: &Ring, into: usize, marks: &mut Marks) -> Op
         [i, j].into_iter().all(|i| may_meet(ring.vertices[i])) && complex.has_triangle(renamed)
     };
     if fan_of(ring, into).any(is_there) { None } else { Some(contact) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// The test as the paper has it: every split plane, every vertex.
-    fn planes_separate(geometry: &Geometry, n: usize, into: usize) -> bool {
-        let at = |k: usize| geometry.points[(into + k) % n];
-        (2..n - 1).all(|j| {
-            let plane = cross(geometry.plane.normal, sub(at(j), at(0)));
-            let side = |k: usize| dot(plane, sub(at(k), at(0)));
-            (1..j).all(|k| side(k) < 0.0) && (j + 1..n).all(|k| side(k) > 0.0)
-        })
-    }
-
-    proptest! {
-        #[test]
-        fn few_turns_say_what_all_half_spaces_say(
-            radii in prop::collection::vec(0.2_f64..1.0, 4..9), heights in prop::collection::vec(-0.2_f64..0.2, 9)
-        ) {
-            let n = radii.len();
-            let mut geometry = Geometry::default();
-            geometry.plane.normal = [0.0, 0.0, 1.0];
-            geometry.points.extend((0..n).map(|i| {
-                let (sin, cos) = (std::f64::consts::TAU * i as f64 / n as f64).sin_cos();
-                [radii[i] * cos, radii[i] * sin, heights[i]]
-            }));
-            for into in 0..n {
-                prop_assert_eq!(is_star_shaped(&geometry, n, into), planes_separate(&geometry, n, into));
-            }
-        }
-    }
 }

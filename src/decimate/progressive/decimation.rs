@@ -1,24 +1,25 @@
 //! The driver (section 4.1): vertices in the order of their errors, collapses while there are any, then splits.
 
-use super::classify::{Class, Geometry, classify};
-use super::collapse::{Collapse, Marks, best_valid};
+use super::accumulated::Accumulated;
+use super::choices::Choices;
+use super::classify::Class;
+use super::collapse::{Collapse, still_valid};
 use super::complex::Complex;
-use super::error::{Accumulated, local_error};
 use super::events::EventLog;
 use super::journal::{Counts, Journal};
 use super::proof::Proof;
 use super::queue::Queue;
-use super::ring::Ring;
 use super::split::Pieces;
+use super::turns::{Judge, Scratch, Turn, Verdict, judge_all, n_at_once};
+use super::view::{Place, View};
 use super::wedges::Wedges;
 use super::{Passage, ProgressiveOptions};
 use crate::history::{History, Recorder};
+use rayon::prelude::*;
 
 /// Stars of more triangles than this are not looked at again after every change of a neighbour, but after every
 /// so many that a part of the star may have changed: a fan of a hundred thousand triangles would cost their square.
 const LARGE_VALENCE: usize = 64;
-/// A vertex is queued again when its error is found to be so much larger than the one it was queued with.
-const REQUEUED_FROM: f64 = 1.05;
 /// Operations between two calls of the observer.
 const WATCH_INTERVAL: usize = 1024;
 
@@ -42,6 +43,8 @@ pub struct Decimation {
     /// Vertices without a valid collapse: to be split once nothing else is left.
     pub(super) stuck: Queue,
     pub(super) settings: Settings,
+    /// What is known of vertices in the queue.
+    choices: Choices,
     /// Whether splits have their turn.
     splits: bool,
     /// Changes around vertices of large valence since they were last looked at.
@@ -52,7 +55,12 @@ pub struct Decimation {
     pub(super) view: View,
     /// A neighbour of it.
     neighbor: View,
-    pub(super) marks: Marks,
+    /// Vertices taken from the queue, and room to judge them.
+    turns: Vec<Turn>,
+    scratches: Vec<Scratch>,
+    /// How often vertices were taken from the queue, and for each vertex when its star last changed in that count.
+    n_rounds: u32,
+    changed_in: Vec<u32>,
     pub(super) pieces: Pieces,
     /// Wedges at the vertex and where they go.
     pub(super) pairs: Vec<[u32; 2]>,
@@ -73,35 +81,14 @@ pub struct Settings {
     pub options: ProgressiveOptions,
 }
 
-/// A step to be tried.
+/// What is to be done next.
 enum Next {
-    /// A collapse of this vertex, queued with this error.
-    Collapse(u32, f64),
+    /// Collapses of so many vertices from the queue.
+    Collapses(usize),
     /// A split of this vertex.
     Split(u32),
     /// There is no vertex left.
     Nothing,
-}
-
-/// A vertex with its surroundings.
-#[derive(Clone, Debug, Default)]
-pub(super) struct View {
-    pub(super) ring: Ring,
-    pub(super) geometry: Geometry,
-    pub(super) class: Class,
-}
-
-impl View {
-    fn gather(&mut self, complex: &Complex, wedges: Option<&Wedges>, v: u32, cos_feature_angle: f64) {
-        self.ring.gather(complex, v);
-        self.geometry.gather(complex, wedges, &self.ring, cos_feature_angle);
-        self.class = classify(complex, &self.ring, &self.geometry);
-    }
-
-    /// Effective edge length of the star (equation 4): what is lost at most when pieces of it vanish.
-    fn size(&self) -> f64 {
-        self.geometry.area.sqrt()
-    }
 }
 
 impl Decimation {
@@ -119,13 +106,17 @@ impl Decimation {
             accumulated: Accumulated::new(n_points),
             queue: Queue::new(n_points),
             stuck: Queue::new(n_points),
+            choices: Choices::new(n_points),
             splits: settings.options.pre_split,
             settings,
             n_changes: vec![0; n_points],
             keeps_crack: vec![false; n_points],
             view: View::default(),
             neighbor: View::default(),
-            marks: Marks::default(),
+            turns: Vec::new(),
+            scratches: vec![Scratch::default()],
+            n_rounds: 0,
+            changed_in: vec![0; n_points],
             pieces: Pieces::default(),
             pairs: Vec::new(),
             complex,
@@ -142,18 +133,24 @@ impl Decimation {
         if self.settings.proves {
             self.proof = Some(Proof::new(&self.complex, self.settings.rounding));
         }
-        for v in (0..).take(self.complex.n_points()) {
-            self.evaluate(v);
-        }
-        let mut n_operations = 0_usize;
+        self.evaluate_all();
+        let mut n_unwatched = WATCH_INTERVAL;
         while self.complex.n_triangles() > n_target {
-            if n_operations.is_multiple_of(WATCH_INTERVAL) && !go_on(self) {
-                return false;
+            if n_unwatched >= WATCH_INTERVAL {
+                n_unwatched = 0;
+                if !go_on(self) {
+                    return false;
+                }
             }
-            n_operations += 1;
             match self.next() {
-                Next::Collapse(v, queued) => self.try_collapse(v, queued),
-                Next::Split(v) => self.split(v),
+                Next::Collapses(n) => {
+                    n_unwatched += n;
+                    self.take_turns(n, n_target);
+                }
+                Next::Split(v) => {
+                    n_unwatched += 1;
+                    self.split(v);
+                }
                 Next::Nothing => break,
             }
         }
@@ -179,11 +176,10 @@ impl Decimation {
             (Some(_), None) => false,
         };
         self.splits |= may_split;
-        let (from, to_split) = if may_split { (&mut self.stuck, true) } else { (&mut self.queue, false) };
-        match from.pop() {
-            Some((v, _)) if to_split => Next::Split(v),
-            Some((v, queued)) => Next::Collapse(v, queued),
-            None => Next::Nothing,
+        if may_split {
+            self.stuck.pop().map_or(Next::Nothing, |(v, _)| Next::Split(v))
+        } else {
+            Next::Collapses(if self.splits { 1 } else { n_at_once(self.queue.len()) })
         }
     }
 
@@ -195,30 +191,58 @@ impl Decimation {
         n_target
     }
 
+    /// Classifies and queues all vertices, on the current rayon pool.
+    fn evaluate_all(&mut self) {
+        let Self { complex, wedges, settings, .. } = self;
+        let n_points = u32::try_from(complex.n_points()).unwrap_or(u32::MAX);
+        let look = |view: &mut View, v: u32| {
+            view.gather(complex, wedges.as_ref(), v, settings.cos_feature_angle);
+            view.place()
+        };
+        let places: Vec<Place> =
+            (0..n_points).into_par_iter().with_min_len(1024).map_init(View::default, look).collect();
+        for (v, place) in (0..).zip(places) {
+            self.put(v, place);
+        }
+    }
+
     /// Classifies `v` and queues it with its error; takes it out where nothing is left of it. O(valence).
     pub(super) fn evaluate(&mut self, v: u32) {
         let Self { complex, wedges, neighbor, settings, .. } = self;
         neighbor.gather(complex, wedges.as_ref(), v, settings.cos_feature_angle);
-        let class = neighbor.class;
-        let error = local_error(class, &neighbor.ring, &neighbor.geometry) + self.accumulated.at(v);
-        match class {
-            Class::Empty => {
+        let place = neighbor.place();
+        self.put(v, place);
+    }
+
+    fn put(&mut self, v: u32, place: Place) {
+        self.changed_in[v as usize] = self.n_rounds;
+        let accumulated = self.accumulated.at(v);
+        match place {
+            Place::Nowhere => {
                 self.queue.delete(v);
                 self.stuck.delete(v);
             }
-            _ if class.may_collapse() => {
+            Place::Queued(error) => {
                 self.stuck.delete(v);
-                self.queue.set(v, error);
+                self.queue.set(v, error + accumulated);
+                self.choices.measure(v);
             }
-            _ => {
+            Place::Stuck(error) => {
                 self.queue.delete(v);
-                self.stuck.set(v, error + self.neighbor.size());
+                self.stuck.set(v, error + accumulated);
             }
         }
     }
 
-    /// Looks at a vertex whose star has changed. A large star is put off until an eighth of it may have.
-    pub(super) fn evaluate_changed(&mut self, v: u32) {
+    /// The star of `v` has changed. A vertex in the queue is looked at when its turn comes: its error will rarely have become
+    /// less. One that waits for a split may be free now and is looked at at once; a large star only when an eighth of it may
+    /// have changed.
+    pub(super) fn note_change(&mut self, v: u32) {
+        self.changed_in[v as usize] = self.n_rounds;
+        if self.queue.contains(v) {
+            self.choices.forget(v);
+            return;
+        }
         let n_changes = &mut self.n_changes[v as usize];
         let valence = self.complex.star(v).len();
         *n_changes += 1;
@@ -233,6 +257,8 @@ impl Decimation {
         self.accumulated.add_copy(v);
         self.queue.add_vertex();
         self.stuck.add_vertex();
+        self.choices.add_vertex();
+        self.changed_in.push(self.n_rounds);
         self.n_changes.push(0);
         self.keeps_crack.push(self.keeps_crack[v as usize]);
         self.complex.add_copy(v)
@@ -244,21 +270,81 @@ impl Decimation {
         view.gather(complex, wedges.as_ref(), v, settings.cos_feature_angle);
     }
 
-    /// Collapses `v` if it has a valid edge within the limits; sets it aside otherwise. Where the actual error is larger than
-    /// the measure that it was queued with, it goes back to where it belongs.
-    fn try_collapse(&mut self, v: u32, queued: f64) {
-        self.look_at(v);
-        match self.best_valid() {
-            Some(_) if self.view.class == Class::CrackTip => self.close_crack_and_collapse(v),
-            Some(collapse) => {
-                let error = collapse.distance + self.accumulated.at(v);
-                if error > queued * REQUEUED_FROM + f64::from(f32::MIN_POSITIVE) {
-                    self.queue.set(v, error);
+    /// Takes `n` vertices from the queue and does with each what is found to be right, until `n_target` triangles are left.
+    fn take_turns(&mut self, n: usize, n_target: usize) {
+        self.n_rounds += 1;
+        let mut turns = std::mem::take(&mut self.turns);
+        turns.resize_with(n.max(turns.len()), Turn::default);
+        let mut n_taken = 0;
+        while let Some((vertex, queued)) = if n_taken < n { self.queue.pop() } else { None } {
+            (turns[n_taken].vertex, turns[n_taken].queued) = (vertex, queued);
+            n_taken += 1;
+        }
+        let mut scratches = std::mem::take(&mut self.scratches);
+        let Self { complex, wedges, accumulated, choices, settings, .. } = &*self;
+        let judge = Judge { complex, wedges: wedges.as_ref(), accumulated, choices, settings };
+        judge_all(judge, &mut turns[..n_taken], &mut scratches);
+        self.scratches = scratches;
+        for turn in &mut turns[..n_taken] {
+            if self.complex.n_triangles() <= n_target {
+                break;
+            }
+            self.take_turn(turn);
+        }
+        self.turns = turns;
+    }
+
+    /// Does what was found right for a vertex, unless something has come between. Where its error is larger than the one that it
+    /// was queued with, it goes back to where it belongs.
+    fn take_turn(&mut self, turn: &mut Turn) {
+        let v = turn.vertex;
+        if self.changed_in[v as usize] == self.n_rounds {
+            // Its star has changed since it was taken. It was looked at anew, unless that was put off.
+            if !self.queue.contains(v) && !self.stuck.contains(v) {
+                self.evaluate(v);
+            }
+            return;
+        }
+        let accumulated = self.accumulated.at(v);
+        match turn.verdict {
+            Verdict::Gone => {}
+            Verdict::Later(error) => {
+                self.choices.measure(v);
+                self.queue.set(v, error + accumulated);
+            }
+            Verdict::ChosenLater(Collapse { into, distance, .. }) => {
+                self.choices.choose(v, turn.view.ring.vertices[into], distance);
+                self.queue.set(v, distance + accumulated);
+            }
+            Verdict::Aside | Verdict::Crack | Verdict::Collapse(_) => {
+                std::mem::swap(&mut self.view, &mut turn.view);
+                self.carry_out(v, turn.verdict, turn.queued);
+            }
+        }
+    }
+
+    fn carry_out(&mut self, v: u32, verdict: Verdict, queued: f64) {
+        match verdict {
+            Verdict::Crack => self.close_crack_and_collapse(v),
+            Verdict::Collapse(collapse) => {
+                let has_changed = |r: &u32| self.changed_in[*r as usize] == self.n_rounds;
+                let collapse = if self.view.ring.vertices.iter().any(has_changed) {
+                    // The triangles beyond its star decide what its collapse does to the topology.
+                    let choice = (self.view.ring.vertices[collapse.into], collapse.distance);
+                    let marks = &mut self.scratches[0].marks;
+                    still_valid(&self.complex, &self.view.ring, choice, marks)
                 } else {
-                    self.collapse(collapse);
+                    Some(collapse)
+                };
+                match collapse {
+                    Some(collapse) => self.collapse(collapse),
+                    None => {
+                        self.choices.forget(v);
+                        self.queue.set(v, queued);
+                    }
                 }
             }
-            None => self.set_aside(v),
+            _ => self.set_aside(v),
         }
     }
 
@@ -269,7 +355,7 @@ impl Decimation {
             if self.view.ring.is_cycle() {
                 self.view.class = Class::Simple;
             }
-            if let Some(collapse) = self.best_valid() {
+            if let Some(collapse) = self.best_collapse() {
                 self.collapse(collapse);
                 return;
             }
@@ -278,9 +364,10 @@ impl Decimation {
         self.set_aside(v);
     }
 
-    fn best_valid(&mut self) -> Option<Collapse> {
-        let Self { complex, view: View { ring, geometry, class }, marks, .. } = self;
-        best_valid(complex, ring, geometry, *class, marks)
+    fn best_collapse(&mut self) -> Option<Collapse> {
+        let Self { complex, wedges, accumulated, choices, settings, view, scratches, .. } = self;
+        let judge = Judge { complex, wedges: wedges.as_ref(), accumulated, choices, settings };
+        judge.best_collapse(view, scratches.first_mut()?)
     }
 
     /// Leaves the vertex at hand for the time when there is nothing but splits.
@@ -290,7 +377,6 @@ impl Decimation {
 
     /// Error of the vertex at hand.
     pub(super) fn error_in_view(&self, v: u32) -> f64 {
-        let View { ring, geometry, class } = &self.view;
-        local_error(*class, ring, geometry) + self.accumulated.at(v)
+        self.view.error() + self.accumulated.at(v)
     }
 }

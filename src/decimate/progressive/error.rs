@@ -6,7 +6,6 @@
 
 use super::classify::{Class, Geometry};
 use super::ring::Ring;
-use crate::bound::accumulated::round_up;
 use crate::geometry::distance::{point_segment_distance_sq, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, dot, length, length_sq, midpoint, sub};
 
@@ -34,14 +33,17 @@ pub fn vanishes(ring: &Ring) -> bool {
     ring.len() == 1 || (ring.len() == 2 && ring.is_cycle())
 }
 
-/// Distance between the star and the triangles that the collapse into neighbour `into` leaves: of the deleted vertex from the
-/// new triangles, as in the paper; of the middle of each new edge from the old ones, which tells of saddles that the vertex
-/// lies in the middle of; and on the boundary, of the vertex from the new boundary. O(valence^2), for the few triangles that
-/// most stars have; O(valence) for others, where new edges are left out.
-pub fn actual_error(ring: &Ring, geometry: &Geometry, into: usize) -> f64 {
+/// Distance between the star and the triangles that the collapse into neighbour `into` leaves, or nothing where that is
+/// not below `limit`: of the deleted vertex from the new triangles, as in the paper; of the middle of each new edge from the old
+/// ones, which tells of saddles that the vertex lies in the middle of; and on the boundary, of the vertex from the new boundary.
+/// O(valence^2) for the few triangles that most stars have, near O(valence) in practice; O(valence) for others, where new
+/// edges are left out.
+pub fn actual_error(ring: &Ring, geometry: &Geometry, into: usize, limit: f64) -> Option<f64> {
     if vanishes(ring) {
-        return geometry.area.sqrt();
+        let size = geometry.area.sqrt();
+        return (size < limit).then_some(size);
     }
+    let limit_sq = limit * limit;
     let points = &geometry.points;
     let target = points[into];
     let fan = fan_of(ring, into).map(|[i, j]| [target, points[i], points[j]]);
@@ -53,67 +55,53 @@ pub fn actual_error(ring: &Ring, geometry: &Geometry, into: usize) -> f64 {
     }
     if ring.len() <= FEW {
         for (j, &point) in points.iter().enumerate() {
+            if largest_sq >= limit_sq {
+                return None;
+            }
             if j != into && !ring.are_adjacent(into, j) {
-                largest_sq = largest_sq.max(distance_to_star_sq(ring, geometry, midpoint(target, point)));
+                let first = sector_between(ring, into, j);
+                largest_sq =
+                    distance_to_star_sq(ring, geometry, (midpoint(target, point), first), largest_sq);
             }
         }
     }
-    largest_sq.sqrt()
+    (largest_sq < limit_sq).then_some(largest_sq.sqrt())
 }
 
-/// Squared distance between a point and the star.
-fn distance_to_star_sq(ring: &Ring, geometry: &Geometry, point: Vector) -> f64 {
-    let spokes = (0..ring.len()).map(|i| [geometry.apex, geometry.points[i], geometry.points[ring.next(i)]]);
-    spokes.map(|triangle| point_triangle_distance_sq(point, &triangle)).fold(f64::INFINITY, f64::min)
+/// Triangle of the star in the middle of the shorter way from neighbour `i` to `j`: the middle of the edge between them is usually
+/// near it.
+fn sector_between(ring: &Ring, i: usize, j: usize) -> usize {
+    let (low, high) = (i.min(j), i.max(j));
+    let n = ring.len();
+    if !ring.is_cycle() || 2 * (high - low) <= n {
+        low + (high - low) / 2
+    } else {
+        (high + (n - (high - low)) / 2) % n
+    }
+}
+
+/// Squared distance between a point and the star, at least `floor_sq`: the search ends with the first triangle that near, and begins
+/// at the one given with the point.
+fn distance_to_star_sq(
+    ring: &Ring,
+    geometry: &Geometry,
+    (point, first): (Vector, usize),
+    floor_sq: f64,
+) -> f64 {
+    let mut least_sq = f64::INFINITY;
+    for i in (first..ring.len()).chain(0..first) {
+        let triangle = [geometry.apex, geometry.points[i], geometry.points[ring.next(i)]];
+        least_sq = least_sq.min(point_triangle_distance_sq(point, &triangle));
+        if least_sq <= floor_sq {
+            return floor_sq;
+        }
+    }
+    least_sq
 }
 
 /// Pairs of neighbours that make up a fan from neighbour `into`: the triangles of the star that survive the collapse.
 pub fn fan_of(ring: &Ring, into: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
     (0..ring.len()).map(|i| [i, ring.next(i)]).filter(move |pair| !pair.contains(&into))
-}
-
-/// Errors that deletions have left at each vertex (equation 5).
-#[derive(Clone, Debug)]
-pub struct Accumulated {
-    errors: Vec<f32>,
-}
-
-impl Accumulated {
-    /// Nothing was deleted yet.
-    pub fn new(n_vertices: usize) -> Self {
-        Self { errors: vec![0.0; n_vertices] }
-    }
-
-    /// What was left at `v`.
-    #[inline]
-    pub fn at(&self, v: u32) -> f64 {
-        f64::from(self.errors[v as usize])
-    }
-
-    /// The vertex takes what was left at the one that it copies.
-    pub fn add_copy(&mut self, v: u32) {
-        self.errors.push(self.errors[v as usize]);
-    }
-
-    /// Largest error at the neighbours once the ring's centre has gone at this distance from what takes its place.
-    pub fn after(&self, ring: &Ring, distance: f64) -> f64 {
-        let around = ring.vertices.iter().map(|&r| self.at(r));
-        around.fold(self.at(ring.center), f64::max) + distance
-    }
-
-    /// The ring's centre goes: each neighbour is left with the distance and the error that had come together at the centre or
-    /// at itself.
-    pub fn distribute(&mut self, ring: &Ring, distance: f64) {
-        let own = self.at(ring.center);
-        for &r in &ring.vertices {
-            self.errors[r as usize] = round_up(own.max(self.at(r)) + distance);
-        }
-    }
-
-    /// `from` goes into `into`, at the same place.
-    pub fn merge(&mut self, from: u32, into: u32) {
-        self.errors[into as usize] = self.errors[into as usize].max(self.errors[from as usize]);
-    }
 }
 
 /// The average plane of a star (W. J. Schroeder, J. A. Zarge and W. E. Lorensen, "Decimation of triangle meshes", SIGGRAPH

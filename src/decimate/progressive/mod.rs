@@ -9,6 +9,8 @@
 //! [`queue`] (4.4), [`collapse`] (4.5), [`split`] (4.6). A [`proof`] of the error is carried along for as long as nothing
 //! but collapses that keep the topology happened; [`events`] are the moments at which it changed.
 
+pub mod accumulated;
+pub mod choices;
 pub mod classify;
 pub mod collapse;
 pub mod complex;
@@ -19,8 +21,11 @@ pub mod journal;
 pub mod proof;
 pub mod queue;
 pub mod ring;
+pub mod shadow;
 pub mod split;
 mod steps;
+mod turns;
+mod view;
 pub mod wedges;
 
 pub use decimation::{Decimation, Settings};

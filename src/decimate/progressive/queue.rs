@@ -26,9 +26,20 @@ impl Queue {
         self.places.push(ABSENT);
     }
 
+    /// How many vertices are queued.
+    pub fn len(&self) -> usize {
+        self.heap.len()
+    }
+
     /// Whether nothing is queued.
     pub fn is_empty(&self) -> bool {
         self.heap.is_empty()
+    }
+
+    /// Whether `vertex` is queued.
+    #[inline]
+    pub fn contains(&self, vertex: u32) -> bool {
+        self.places[vertex as usize] != ABSENT
     }
 
     /// The least error in the queue.

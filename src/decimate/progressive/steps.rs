@@ -2,10 +2,11 @@
 
 use super::classify::Class;
 use super::collapse::{Collapse, Contact};
-use super::decimation::{Decimation, View};
+use super::decimation::Decimation;
 use super::error::vanishes;
 use super::events::{Event, EventKind};
 use super::ring::Ring;
+use super::view::View;
 
 impl Decimation {
     /// Takes the vertex at hand along an edge, unless the error would be too large.
@@ -33,7 +34,7 @@ impl Decimation {
         }
         self.tell_of_collapse(&ring, contact);
         for &r in &ring.vertices {
-            self.evaluate_changed(r);
+            self.note_change(r);
         }
         self.view.ring = ring;
     }

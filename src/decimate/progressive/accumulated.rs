@@ -1,0 +1,48 @@
+//! Errors that deletions have left behind (equation 5).
+
+use super::ring::Ring;
+use crate::bound::accumulated::round_up;
+
+/// Errors that deletions have left at each vertex (equation 5).
+#[derive(Clone, Debug)]
+pub struct Accumulated {
+    errors: Vec<f32>,
+}
+
+impl Accumulated {
+    /// Nothing was deleted yet.
+    pub fn new(n_vertices: usize) -> Self {
+        Self { errors: vec![0.0; n_vertices] }
+    }
+
+    /// What was left at `v`.
+    #[inline]
+    pub fn at(&self, v: u32) -> f64 {
+        f64::from(self.errors[v as usize])
+    }
+
+    /// The vertex takes what was left at the one that it copies.
+    pub fn add_copy(&mut self, v: u32) {
+        self.errors.push(self.errors[v as usize]);
+    }
+
+    /// Largest error at the neighbours once the ring's centre has gone at this distance from what takes its place.
+    pub fn after(&self, ring: &Ring, distance: f64) -> f64 {
+        let around = ring.vertices.iter().map(|&r| self.at(r));
+        around.fold(self.at(ring.center), f64::max) + distance
+    }
+
+    /// The ring's centre goes: each neighbour is left with the distance and the error that had come together at the centre or
+    /// at itself.
+    pub fn distribute(&mut self, ring: &Ring, distance: f64) {
+        let own = self.at(ring.center);
+        for &r in &ring.vertices {
+            self.errors[r as usize] = round_up(own.max(self.at(r)) + distance);
+        }
+    }
+
+    /// `from` goes into `into`, at the same place.
+    pub fn merge(&mut self, from: u32, into: u32) {
+        self.errors[into as usize] = self.errors[into as usize].max(self.errors[from as usize]);
+    }
+}

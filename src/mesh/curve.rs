@@ -1,0 +1,99 @@
+//! Numbering along a curve: what is near in space comes to be near in memory.
+
+use super::Repaired;
+use crate::geometry::morton::Grid;
+use nephrite_formats::TriangleMesh;
+use rayon::prelude::*;
+
+/// Renumbers vertices along a Morton curve, and triangles by their least vertex. The mesh is the same: a decimator that walks
+/// over it misses the cache less. O(n log n).
+pub fn along_a_curve(Repaired { mesh, points, looks, report }: Repaired) -> Repaired {
+    let grid = Grid::around(&mesh.positions);
+    let mut order: Vec<(u64, u32)> =
+        (0..).zip(&mesh.positions).map(|(v, &position)| (grid.morton(position), v)).collect();
+    // Vertices of one point keep their order: its first one stays the first.
+    order.par_sort_unstable();
+    let order: Vec<u32> = order.into_iter().map(|(_, v)| v).collect();
+    let mut number = vec![0; order.len()];
+    for (new, &old) in (0..).zip(&order) {
+        number[old as usize] = new;
+    }
+    let renumber = |of: Vec<u32>| order.iter().map(|&old| number[of[old as usize] as usize]).collect();
+    let mut triangles = mesh.triangles;
+    for triangle in &mut triangles {
+        *triangle = triangle.map(|v| number[v as usize]);
+    }
+    triangles.par_sort_by_key(|triangle| triangle.iter().copied().min());
+    let mut attributes = mesh.attributes;
+    for attribute in &mut attributes {
+        let stride = attribute.stride_bytes();
+        let values = |&old: &u32| &attribute.bytes[old as usize * stride..][..stride];
+        attribute.bytes = order.iter().flat_map(values).copied().collect();
+    }
+    let positions = order.iter().map(|&old| mesh.positions[old as usize]).collect();
+    Repaired {
+        mesh: TriangleMesh { positions, triangles, attributes, ..mesh },
+        points: points.map(renumber),
+        looks: looks.map(renumber),
+        report,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate;
+    use crate::mesh::repair;
+    use nephrite_formats::{Attribute, ScalarType};
+
+    /// Triangles as the positions of their corners, in any order.
+    fn shape(mesh: &TriangleMesh) -> Vec<[[u32; 3]; 3]> {
+        let corner = |v: u32| mesh.positions[v as usize].map(f32::to_bits);
+        let mut shape: Vec<_> = mesh.triangles.iter().map(|t| t.map(corner)).collect();
+        shape.sort_unstable();
+        shape
+    }
+
+    #[test]
+    fn the_mesh_is_the_same_and_neighbours_are_near() {
+        let repaired = repair(&generate::plate(3, 2, 16));
+        let along = along_a_curve(repaired.clone());
+        let (before, after) = (&repaired.mesh, &along.mesh);
+        assert_eq!(shape(before).len(), shape(after).len());
+        let rotated = |t: [[u32; 3]; 3]| {
+            let least = (0..3).min_by_key(|&i| t[i]).unwrap();
+            [t[least], t[(least + 1) % 3], t[(least + 2) % 3]]
+        };
+        let rotated = |mesh| {
+            let mut shape: Vec<_> = shape(mesh).into_iter().map(rotated).collect();
+            shape.sort_unstable();
+            shape
+        };
+        assert_eq!(rotated(before), rotated(after));
+    }
+
+    #[test]
+    fn seams_keep_the_first_vertex_of_each_point() {
+        let grid = generate::cosine(6);
+        let mut doubled = grid.clone();
+        let n = u32::try_from(grid.positions.len()).unwrap();
+        doubled.positions.extend_from_slice(&grid.positions);
+        for triangle in doubled.triangles.iter_mut().skip(20) {
+            *triangle = triangle.map(|v| v + n);
+        }
+        let look: Vec<u8> = (0..2 * n).flat_map(|v| u32::from(v >= n).to_le_bytes()).collect();
+        doubled.attributes.push(Attribute {
+            name: "look".into(),
+            scalar: ScalarType::U32,
+            n_components: 1,
+            bytes: look,
+        });
+        let along = along_a_curve(repair(&doubled));
+        let points = along.points.unwrap();
+        for (v, &point) in (0..).zip(&points) {
+            assert!(point <= v && points[point as usize] == point);
+            let [at, first] = [v, point].map(|v| along.mesh.positions[v as usize].map(f32::to_bits));
+            assert_eq!(at, first);
+        }
+    }
+}
