@@ -9,9 +9,11 @@
 )]
 
 use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build, generate};
+use nephrite::store::{Provenance, StoreOptions, VerifyError, write_to_with};
+use nephrite::{Bound, Build, BuildOptions, Lod, Method, TriangleMesh, build, generate};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
+use std::io::Cursor;
 use std::ops::ControlFlow;
 
 fn decimate(mesh: &TriangleMesh, pre_split: bool) -> Build {
@@ -94,6 +96,30 @@ fn streams_are_half_as_long_as_indices_and_positions() {
     let (plain, coded) = (encoded.plain_bytes, encoded.bytes.len());
     assert!(plain * 9 <= standard * 8, "{plain} of {standard}");
     assert!(coded * 9 <= standard * 4, "{coded} of {standard}");
+}
+
+/// What the verification of a file with these operations says.
+fn verify_with(build: &Build, operations: &[u8]) -> Result<(), VerifyError> {
+    let mut file = Cursor::new(Vec::new());
+    let (provenance, options) = (Provenance::default(), StoreOptions::default());
+    write_to_with(&mut file, &build.mesh, &build.history, &provenance, &options, operations).unwrap();
+    Lod::from_bytes(&file.into_inner()).unwrap().verify()
+}
+
+#[test]
+fn files_are_verified_to_hold_operations_that_build_their_input() {
+    for build in samples() {
+        let operations = encode(&build).unwrap().bytes;
+        verify_with(&build, &operations).unwrap();
+        let cut = &operations[..operations.len() - 1];
+        assert!(matches!(verify_with(&build, cut), Err(VerifyError::OperationCount { found: 0.., .. })));
+        let mut damaged = operations.clone();
+        damaged[operations.len() - 1] ^= 1;
+        assert!(matches!(verify_with(&build, &damaged), Err(VerifyError::Operations(_))));
+        let other = encode(&decimate(&generate::torus(9, 5), false)).unwrap().bytes;
+        let found = verify_with(&build, &other);
+        assert!(matches!(found, Err(VerifyError::OperationsMesh { found: 0, .. })), "{found:?}");
+    }
 }
 
 proptest! {

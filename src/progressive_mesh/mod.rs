@@ -104,6 +104,11 @@ impl ProgressiveMesh {
         self.growth().operations.len()
     }
 
+    /// Operations that the stream says it has; 0 before its beginning was read.
+    pub fn n_announced(&self) -> u64 {
+        self.decoder.header.map_or(0, |header| header.n_operations)
+    }
+
     /// Operations that have been played.
     pub fn position(&self) -> usize {
         self.position

@@ -2,6 +2,7 @@
 
 use super::compact::CompactFault;
 use crate::history::HistoryError;
+use crate::progressive_mesh::StreamError;
 use crate::tree::{TreeError, TreeFault};
 use nephrite_formats::PublishError;
 use nephrite_formats::neph::NephError;
@@ -254,5 +255,24 @@ pub enum VerifyError {
     Position {
         /// Which vertex.
         vertex: u32,
+    },
+    /// The operations are no stream, or one that contradicts itself.
+    #[error("operations are damaged")]
+    Operations(#[from] StreamError),
+    /// The operations do not end where the stream says.
+    #[error("{found} operations are there, {expected} were announced")]
+    OperationCount {
+        /// Whole operations in the section.
+        found: u64,
+        /// Operations that its beginning announces.
+        expected: u64,
+    },
+    /// The operations build something else up than level 0.
+    #[error("operations lead to {found} triangles that are those of level 0, of {expected}")]
+    OperationsMesh {
+        /// Triangles that both have.
+        found: u64,
+        /// The larger of the two numbers of triangles.
+        expected: u64,
     },
 }

@@ -17,6 +17,7 @@ mod map;
 mod memory;
 mod metadata;
 mod opened;
+mod operations;
 mod pieces;
 mod publish;
 mod verify;

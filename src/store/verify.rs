@@ -8,7 +8,8 @@ use std::io::Cursor;
 
 impl Opened {
     /// Checks everything the format promises: checksums, padding, metadata, error table, counts, the interval tree with
-    /// both lists of every node, vertex indices against the vertex prefix of every level, and positions.
+    /// both lists of every node, vertex indices against the vertex prefix of every level, positions, and that the operations build
+    /// level 0 up.
     ///
     /// For a file read into memory the answer holds for as long as this value lives; for a mapped one it is a fact about
     /// the past. Cost: `O(n log n)` in the slots, all threads; memory up to 8 bytes per slot.
@@ -36,7 +37,8 @@ impl Opened {
         self.check_vertex_births()?;
         self.check_compact()?;
         self.check_tree()?;
-        self.check_simplex_counts()
+        self.check_simplex_counts()?;
+        self.check_operations()
     }
 
     /// Bytes between sections, and between attribute values, are zero.
