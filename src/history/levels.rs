@@ -12,6 +12,10 @@ use crate::tree::Lifetime;
 /// Each level of a file has about this part of the simplices of the level before.
 pub const LEVEL_RATIO: f64 = 63.0 / 64.0;
 
+/// The step before an error of so many times its own is kept whatever its interval: an error inflection point (W. J. Schroeder, "A
+/// topology modifying progressive decimation algorithm", 1997, section 4.8), a natural place to stop.
+pub const LEAP_RATIO: f64 = 10.0;
+
 /// Which steps a file keeps as levels.
 ///
 /// Memory: 4 bytes per step. Invariants: `steps[0] == 0`, steps ascend strictly, simplex counts never rise.
@@ -44,7 +48,8 @@ impl Levels {
     /// Chooses the levels of a history that passes [`History::check`].
     ///
     /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the others,
-    /// unless the history states deviations as well; the last step of the history is kept. `limit` is the largest number of
+    /// unless the history states deviations as well; the last step of the history is kept, and without a limit every step before a
+    /// [leap](LEAP_RATIO). `limit` is the largest number of
     /// levels; 1 (or 0) keeps the input only, and a large one keeps every step that removes a simplex. Cost: one pass over
     /// simplices and steps.
     ///
@@ -59,7 +64,10 @@ impl Levels {
         // Deviations are maxima over the mesh and the error is the boundary's: all stand still while the mesh changes elsewhere.
         let is_always = !history.deviations.is_empty();
         let rises = |step: usize| is_always || history.errors[step + 1] > history.errors[step];
-        let steps = choose_steps(rises, &alive, limit);
+        // Errors that are not zero leap at most some six hundred times within their range.
+        let leaps =
+            |step: usize| limit.is_none() && history.errors[step + 1] > LEAP_RATIO * history.errors[step];
+        let steps = choose_steps(rises, leaps, &alive, limit);
         let simplex_counts: Vec<u32> = steps.iter().map(|&step| alive[step as usize]).collect();
         for (level, pair) in simplex_counts.windows(2).enumerate() {
             if pair[1] > pair[0] {
@@ -130,8 +138,13 @@ fn alive_counts<const CORNERS: usize>(history: &History<CORNERS>) -> Vec<u32> {
     alive
 }
 
-/// `rises` tells whether a step is a choice beside the step after it.
-fn choose_steps(rises: impl Fn(usize) -> bool, alive: &[u32], limit: Option<u32>) -> Vec<u32> {
+/// `rises` tells whether a step is a choice beside the step after it, `leaps` whether it is the only one.
+fn choose_steps(
+    rises: impl Fn(usize) -> bool,
+    leaps: impl Fn(usize) -> bool,
+    alive: &[u32],
+    limit: Option<u32>,
+) -> Vec<u32> {
     let mut steps = vec![0];
     let (Some(&finest), Some(&coarsest)) = (alive.first(), alive.last()) else { return steps };
     if limit.is_some_and(|limit| limit <= 1) || alive.len() == 1 {
@@ -149,7 +162,8 @@ fn choose_steps(rises: impl Fn(usize) -> bool, alive: &[u32], limit: Option<u32>
     for step in (1u32..).take(alive.len() - 2) {
         let is_last_of_equals = rises(step as usize);
         let this_interval = interval(alive[step as usize]);
-        if is_last_of_equals && this_interval > last_interval {
+        let is_smaller = || steps.last().is_some_and(|&kept| alive[step as usize] < alive[kept as usize]);
+        if is_last_of_equals && (this_interval > last_interval || (leaps(step as usize) && is_smaller())) {
             steps.push(step);
             last_interval = this_interval;
         }
@@ -176,7 +190,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn choose_steps(errors: &[f64], alive: &[u32], limit: Option<u32>) -> Vec<u32> {
-        super::choose_steps(|step| errors[step + 1] > errors[step], alive, limit)
+        let leaps = |step: usize| limit.is_none() && errors[step + 1] > LEAP_RATIO * errors[step];
+        super::choose_steps(|step| errors[step + 1] > errors[step], leaps, alive, limit)
     }
 
     /// Two triangles fewer per step, as when an interior vertex is removed.

@@ -9,7 +9,7 @@ mod levels;
 mod recorder;
 
 pub use check::HistoryError;
-pub use levels::{LEVEL_RATIO, Levels};
+pub use levels::{LEAP_RATIO, LEVEL_RATIO, Levels};
 pub use recorder::Recorder;
 
 /// Death of whatever is still alive when the decimator stops.
