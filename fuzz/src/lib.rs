@@ -11,6 +11,7 @@
 mod damage;
 mod importers;
 mod neph;
+mod operations;
 mod script;
 mod soup;
 #[path = "../../tests/support/synthetic.rs"]

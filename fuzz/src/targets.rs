@@ -1,6 +1,6 @@
 //! Every fuzz target as a test.
 
-use crate::{importers, neph, soup};
+use crate::{importers, neph, operations, soup};
 use bolero::check;
 use cap::Cap;
 use nephrite_formats::{MeshFormat, VolumeFormat};
@@ -20,6 +20,12 @@ fn open_and_use() {
 fn query_sequences() {
     on_this_thread();
     check!().for_each(neph::query_edited);
+}
+
+#[test]
+fn open_operations() {
+    on_this_thread();
+    check!().for_each(operations::open_operations);
 }
 
 #[test]
