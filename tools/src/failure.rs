@@ -63,6 +63,16 @@ pub(crate) enum Failure {
         /// All parts.
         n_parts: usize,
     },
+    /// Somebody pressed Ctrl-C while a database was built.
+    #[error("{}: interrupted with {n_done} of {n_parts} parts done; the same command goes on with the others", folder.display())]
+    InterruptedParts {
+        /// Folder of the database.
+        folder: PathBuf,
+        /// Parts that are there.
+        n_done: usize,
+        /// All parts.
+        n_parts: usize,
+    },
     /// Somebody pressed Ctrl-C.
     #[error("interrupted, nothing was written")]
     Interrupted,
@@ -107,7 +117,7 @@ impl Failure {
 
     /// The process's exit status.
     pub(crate) fn status(&self) -> u8 {
-        if matches!(self, Self::Interrupted) { INTERRUPTED } else { FAILED }
+        if matches!(self, Self::Interrupted | Self::InterruptedParts { .. }) { INTERRUPTED } else { FAILED }
     }
 }
 

@@ -270,7 +270,12 @@ impl Arguments {
         StoreOptions { levels: self.levels, window_levels: self.window_levels, is_compact: self.compact }
     }
 
-    fn volume(&self) -> Request<'_> {
+    /// Whether the input is a volume, by its name or by the method.
+    pub(super) fn is_of_volume(&self) -> bool {
+        self.method == MethodName::Fusion || files::is_volume(&self.mesh)
+    }
+
+    pub(super) fn volume(&self) -> Request<'_> {
         Request {
             input: &self.mesh,
             output: self.output(),
@@ -290,7 +295,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     }
     files::check_output(arguments.output(), &[&arguments.mesh])?;
     arguments.threads.run(|| {
-        if arguments.method == MethodName::Fusion || files::is_volume(&arguments.mesh) {
+        if arguments.is_of_volume() {
             return arguments.volume().run();
         }
         let (mesh, read) = files::read_mesh(&arguments.mesh)?;

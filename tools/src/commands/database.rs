@@ -2,75 +2,62 @@
 //!
 //! Parts are built side by side, one thread each. `manifest.jsonl` gets a line as soon as a part is done, so that a run that
 //! was stopped goes on where it was; a part is skipped while its bytes, the options and the file made of it are what that line says.
-//! A part that cannot be read or built is listed with its reason and stops nobody.
+//! A part that cannot be read or built is listed with its reason and stops nobody. Of a part that is done nothing stays in memory but
+//! where its line is.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{BufRead, BufReader, Write};
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use nephrite_formats::{MeshFormat, neph};
+use nephrite::TriangleMesh;
+use nephrite::history::{History, Levels};
+use nephrite::query::CurvePoint;
+use nephrite_formats::{MeshFormat, VolumeFormat, neph};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::build::{Arguments, write};
+use super::manifest::{Facts, Line, Manifest};
 use crate::failure::Failure;
 use crate::report::{self, Report};
 use crate::{figures, files, interrupt};
 
-/// Name of the list of parts in the database's folder.
-const MANIFEST: &str = "manifest.jsonl";
 /// Points of a part's curve that its line keeps.
 const MAX_CURVE_POINTS: usize = 32;
-
-/// A line of the manifest.
-#[derive(Clone)]
-struct Line {
-    facts: Value,
-    /// As it stands in the file: numbers that are read and written again may lose their last digit.
-    text: String,
-    is_unchanged: bool,
-}
-
-impl From<Value> for Line {
-    fn from(facts: Value) -> Self {
-        Self { text: facts.to_string(), facts, is_unchanged: false }
-    }
-}
 
 /// Builds every part that is new or has changed.
 pub(super) fn run(arguments: &Arguments, folder: &Path) -> Result<Report, Failure> {
     let start = Instant::now();
     fs::create_dir_all(folder).map_err(|source| Failure::file(folder, source))?;
     let parts = list_parts(arguments.parts())?;
-    let known = read_manifest(&folder.join(MANIFEST))?;
-    let manifest = File::options().create(true).append(true).open(folder.join(MANIFEST));
-    let manifest = Mutex::new(manifest.map_err(|source| Failure::file(folder.join(MANIFEST), source))?);
+    let (manifest, known) = Manifest::open(folder)?;
     let lines: Vec<Line> = parts
         .par_iter()
         .filter(|_| !interrupt::is_requested())
-        .map(|(part, output)| {
-            let line = build_part(arguments, part, &folder.join(output), known.get(part));
-            append(&manifest, &line);
-            line
+        .filter_map(|(part, output)| {
+            build_part(arguments, part, &folder.join(output), known.get(part), &manifest)
         })
         .collect();
-    drop(manifest);
-    interrupt::check()?;
-    replace_manifest(folder, &lines)?;
-    let n_failed = lines.iter().filter(|line| !line.facts["reason"].is_null()).count();
-    let n_unchanged = lines.iter().filter(|line| line.is_unchanged).count();
-    let triangles: u64 = lines.iter().filter_map(|line| line.facts["triangles_in"].as_u64()).sum();
+    let n_failed = lines.iter().filter(|line| line.is_failed).count();
+    if interrupt::is_requested() {
+        let n_done = lines.len() - n_failed;
+        return Err(Failure::InterruptedParts { folder: folder.to_owned(), n_done, n_parts: parts.len() });
+    }
+    manifest.replace(&lines)?;
     if n_failed > 0 {
         return Err(Failure::Parts { folder: folder.to_owned(), n_failed, n_parts: lines.len() });
     }
+    let n_unchanged = lines.iter().filter(|line| line.is_unchanged).count();
+    let sum = |count: fn(&Line) -> u64| lines.iter().map(count).sum::<u64>();
+    let (triangles, tetrahedra) = (sum(|line| line.n_triangles), sum(|line| line.n_tetrahedra));
     let seconds = start.elapsed();
+    let volumes =
+        if tetrahedra > 0 { format!(", {} tetrahedra", figures::count(tetrahedra)) } else { String::new() };
     Ok(Report {
         text: format!(
-            "{}: {} parts, {} of them unchanged, {} triangles, {}\n",
+            "{}: {} parts, {} of them unchanged, {} triangles{volumes}, {}\n",
             folder.display(),
             figures::count(lines.len()),
             figures::count(n_unchanged),
@@ -81,19 +68,20 @@ pub(super) fn run(arguments: &Arguments, folder: &Path) -> Result<Report, Failur
             "parts": lines.len(),
             "parts_unchanged": n_unchanged,
             "triangles_in": triangles,
+            "tetrahedra_in": tetrahedra,
             "seconds": seconds.as_secs_f64(),
         }),
     })
 }
 
-/// Parts and the names of their files; a folder stands for the meshes in it.
+/// Parts and the names of their files; a folder stands for the meshes and volumes in it.
 fn list_parts<'a>(named: impl Iterator<Item = &'a PathBuf>) -> Result<Vec<(PathBuf, String)>, Failure> {
     let mut parts = Vec::new();
     for path in named {
         if path.is_dir() {
             let entries = fs::read_dir(path).map_err(|source| Failure::file(path, source))?;
             let inside = entries.filter_map(|entry| Some(entry.ok()?.path()));
-            parts.extend(inside.filter(|path| path.is_file() && MeshFormat::from_path(path).is_some()));
+            parts.extend(inside.filter(|path| path.is_file() && is_part(path)));
         } else {
             parts.push(path.clone());
         }
@@ -111,96 +99,139 @@ fn list_parts<'a>(named: impl Iterator<Item = &'a PathBuf>) -> Result<Vec<(PathB
     Ok(parts.iter().map(|part| (part.clone(), name(part))).collect())
 }
 
-/// Lines of an earlier run by part, the last of each; lines that are cut off or something else are left out.
-fn read_manifest(path: &Path) -> Result<BTreeMap<PathBuf, Line>, Failure> {
-    let file = match File::open(path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(BTreeMap::new()),
-        Err(source) => return Err(Failure::file(path, source)),
-    };
-    let lines = BufReader::new(file).split(b'\n').map_while(Result::ok);
-    let lines = lines.filter_map(|line| {
-        let facts: Value = serde_json::from_slice(&line).ok()?;
-        let part = PathBuf::from(facts["part"].as_str()?);
-        Some((part, Line { text: String::from_utf8(line).ok()?, facts, is_unchanged: true }))
-    });
-    Ok(lines.collect())
+/// Whether a file in a folder is a part by its name. Of TetGen's two files one stands for both; PLOT3D's extensions say too little.
+fn is_part(path: &Path) -> bool {
+    let is_elements = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ele"));
+    match VolumeFormat::from_path(path) {
+        None => MeshFormat::from_path(path).is_some(),
+        Some(VolumeFormat::Plot3d) => false,
+        Some(VolumeFormat::Tetgen) => is_elements,
+        Some(_) => true,
+    }
 }
 
-/// The line of a part: built, unchanged, or failed.
-fn build_part(arguments: &Arguments, part: &Path, output: &Path, known: Option<&Line>) -> Line {
+/// Builds a part unless that is done, and writes its line; nothing where a stop was asked for meanwhile.
+fn build_part(
+    arguments: &Arguments,
+    part: &Path,
+    output: &Path,
+    known: Option<&Line>,
+    manifest: &Manifest,
+) -> Option<Line> {
     let part_name = part.to_string_lossy();
     let fail = |reason: String| {
         report::note(&format!("{}: {reason}", part.display()));
-        json!({ "part": part_name, "reason": reason }).into()
+        manifest.append(&json!({ "part": part_name, "reason": reason }))
     };
-    let content = match fs::read(part) {
-        Ok(bytes) => format!("{:016x}", neph::checksum(&bytes)),
-        Err(error) => return fail(error.to_string()),
+    let bytes = match fs::read(part) {
+        Ok(bytes) => bytes,
+        Err(error) => return Some(fail(error.to_string())),
     };
+    let content = format!("{:016x}", neph::checksum(&bytes));
     let options = format!("{} {:?}", json!(arguments.options(1.0)), arguments.stored());
     let options = format!("{:016x}", neph::checksum(options.as_bytes()));
-    let mut line = json!({ "part": part_name, "output": output, "content": content, "options": options });
+    let facts = Facts { output: output.to_string_lossy().into_owned(), content, options };
     if let Some(known) = known {
-        let is_same = ["output", "content", "options"].iter().all(|key| known.facts[key] == line[key]);
         let file_bytes = fs::metadata(output).map(|metadata| metadata.len()).ok();
-        if is_same && file_bytes.is_some() && file_bytes == known.facts["file_bytes"].as_u64() {
-            return known.clone();
+        if known.facts.as_ref() == Some(&facts) && file_bytes.is_some() && file_bytes == known.file_bytes {
+            return Some(known.clone());
         }
     }
-    match build_one(&arguments.for_part(part, output)) {
-        Ok(Value::Object(facts)) => {
+    match build_one(&arguments.for_part(part, output), bytes) {
+        Ok(Value::Object(built)) => {
+            let mut line = json!({
+                "part": part_name,
+                "output": facts.output,
+                "content": facts.content,
+                "options": facts.options,
+            });
             if let Some(line) = line.as_object_mut() {
-                line.extend(facts);
+                line.extend(built);
             }
-            line.into()
+            Some(manifest.append(&line))
         }
-        Ok(_) => line.into(),
-        Err(failure) => fail(failure.line()),
+        Ok(_) | Err(Failure::Interrupted) => None,
+        Err(failure) => Some(fail(failure.line())),
     }
 }
 
 /// Builds one part and says what became of it.
-fn build_one(arguments: &Arguments) -> Result<Value, Failure> {
+fn build_one(arguments: &Arguments, bytes: Vec<u8>) -> Result<Value, Failure> {
+    if arguments.is_of_volume() {
+        drop(bytes);
+        return build_volume(arguments);
+    }
     let start = Instant::now();
-    let (mesh, _) = nephrite_formats::read_mesh(arguments.mesh())?;
+    let mesh = read_part(arguments.mesh(), bytes)?;
     let diagonal = nephrite::bounding_diagonal(&mesh);
     let go_on = |_: &nephrite::Progress| {
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let build = nephrite::build(&mesh, &arguments.options(diagonal), &go_on)
+    let (options, n_in) = (arguments.options(diagonal), [mesh.triangles.len(), mesh.positions.len()]);
+    let build = nephrite::build(&mesh, &options, &go_on)
         .map_err(|source| Failure::build(arguments.mesh(), source))?;
     let stored = write(arguments, &mesh, &build, diagonal)?;
-    let lod = files::open_lod(arguments.output())?;
-    let n_points = lod.curve().len();
-    let step = n_points.div_ceil(MAX_CURVE_POINTS).max(1);
-    let curve: Vec<_> = lod
-        .curve()
-        .enumerate()
-        .filter(|(at, _)| at % step == 0 || at + 1 == n_points)
-        .map(|(_, point)| point)
-        .collect();
     Ok(json!({
-        "triangles_in": mesh.triangles.len(),
-        "vertices_in": mesh.positions.len(),
+        "triangles_in": n_in[0],
+        "vertices_in": n_in[1],
         "levels": stored.n_levels,
         "coarsest_triangles": stored.n_coarsest,
         "file_bytes": stored.file_bytes,
-        "curve": curve,
+        "curve": curve(arguments, &build.history)?,
         "seconds": start.elapsed().as_secs_f64(),
     }))
 }
 
-/// Adds a line at once; where that fails, the part is built again next time.
-fn append(manifest: &Mutex<File>, line: &Line) {
-    let mut manifest = manifest.lock().unwrap_or_else(PoisonError::into_inner);
-    // One write per line, so that lines of several threads never mix.
-    let _ = manifest.write_all(format!("{}\n", line.text).as_bytes());
+/// The mesh of a part from its bytes, which are let go; glTF may refer to other files and is read from its place.
+fn read_part(part: &Path, bytes: Vec<u8>) -> Result<TriangleMesh, Failure> {
+    let format = MeshFormat::detect(&bytes, MeshFormat::from_path(part));
+    let (mesh, _) = match format.filter(|&format| format != MeshFormat::Gltf) {
+        Some(format) => {
+            nephrite_formats::read_mesh_bytes(&bytes, format).map_err(|error| error.in_file(part))?
+        }
+        None => nephrite_formats::read_mesh(part)?,
+    };
+    drop(bytes);
+    Ok(mesh)
 }
 
-/// Puts a manifest in order of parts, one line each, in the place of the one that grew.
-fn replace_manifest(folder: &Path, lines: &[Line]) -> Result<(), Failure> {
-    let path = folder.join(MANIFEST);
-    nephrite_formats::publish(&path, |out| lines.iter().try_for_each(|line| writeln!(out, "{}", line.text)))
-        .map_err(|source| Failure::file(&path, source))
+/// Some levels of the file that was made of this history.
+fn curve(arguments: &Arguments, history: &History) -> Result<Vec<CurvePoint>, Failure> {
+    let levels = Levels::choose(history, arguments.stored().levels)
+        .map_err(|source| Failure::file(arguments.output(), source))?;
+    let n_vertices = |step: u32| {
+        let births = history.vertex_birth.iter().copied().chain(std::iter::repeat(0));
+        history
+            .vertex_death
+            .iter()
+            .zip(births)
+            .filter(|&(&death, birth)| birth <= step && step < death)
+            .count()
+    };
+    let levels: Vec<(u32, u32)> =
+        levels.steps().iter().copied().zip(levels.simplex_counts().iter().copied()).collect();
+    let stride = levels.len().div_ceil(MAX_CURVE_POINTS).max(1);
+    let last = levels.len() - 1;
+    let shown = levels.iter().enumerate().filter(|(at, _)| at % stride == 0 || *at == last);
+    let points = shown.map(|(_, &(step, triangles))| CurvePoint {
+        error: history.errors[step as usize],
+        triangles,
+        vertices: u32::try_from(n_vertices(step)).unwrap_or(u32::MAX),
+    });
+    Ok(points.collect())
+}
+
+/// Builds a part that is a volume.
+fn build_volume(arguments: &Arguments) -> Result<Value, Failure> {
+    let mut built = arguments.volume().run()?.json;
+    let lod = files::open_lod(arguments.output())?;
+    let stride = lod.curve().len().div_ceil(MAX_CURVE_POINTS).max(1);
+    let last = lod.curve().len() - 1;
+    let shown = lod.curve().enumerate().filter(|(at, _)| at % stride == 0 || *at == last);
+    built["curve"] = shown
+        .map(|(_, CurvePoint { error, triangles, vertices })| {
+            json!({ "error": error, "tetrahedra": triangles, "vertices": vertices })
+        })
+        .collect();
+    Ok(built)
 }

@@ -9,6 +9,7 @@ mod demo;
 mod extract;
 mod generate;
 mod info;
+mod manifest;
 mod measure;
 mod plot;
 mod verify;

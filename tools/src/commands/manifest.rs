@@ -1,0 +1,135 @@
+//! The list of a database's parts: a file of JSON lines that grows while parts are built and is put in order in the end.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use serde_json::Value;
+
+use crate::failure::Failure;
+
+/// Name of the list in the database's folder.
+const MANIFEST: &str = "manifest.jsonl";
+
+/// What decides whether a part has to be built anew.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Facts {
+    /// File made of it.
+    pub(super) output: String,
+    /// Checksum of its bytes.
+    pub(super) content: String,
+    /// Checksum of the options.
+    pub(super) options: String,
+}
+
+/// A line of the list: where it is, and the little that is needed of it. Its text is longer by far and stays in the file.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    /// Nothing for a part that failed.
+    pub(super) facts: Option<Facts>,
+    pub(super) file_bytes: Option<u64>,
+    pub(super) n_triangles: u64,
+    pub(super) n_tetrahedra: u64,
+    pub(super) is_failed: bool,
+    /// Written by an earlier run.
+    pub(super) is_unchanged: bool,
+    start: u64,
+    len: usize,
+}
+
+impl Line {
+    fn new(value: &Value, start: u64, len: usize) -> Self {
+        let text = |key: &str| Some(value[key].as_str()?.to_owned());
+        let facts = || {
+            Some(Facts { output: text("output")?, content: text("content")?, options: text("options")? })
+        };
+        Self {
+            facts: facts(),
+            file_bytes: value["file_bytes"].as_u64(),
+            n_triangles: value["triangles_in"].as_u64().unwrap_or(0),
+            n_tetrahedra: value["tetrahedra_in"].as_u64().unwrap_or(0),
+            is_failed: !value["reason"].is_null(),
+            is_unchanged: false,
+            start,
+            len,
+        }
+    }
+}
+
+/// The list while it grows.
+pub(super) struct Manifest {
+    path: PathBuf,
+    /// The file and its length.
+    file: Mutex<(File, u64)>,
+}
+
+impl Manifest {
+    /// The list of a folder, and the lines of earlier runs by part, the last of each; lines that are cut off or something else are left
+    /// out.
+    ///
+    /// # Errors
+    ///
+    /// When the file cannot be read or written.
+    pub(super) fn open(folder: &Path) -> Result<(Self, BTreeMap<PathBuf, Line>), Failure> {
+        let path = folder.join(MANIFEST);
+        let opened = open(&path).map_err(|source| Failure::file(&path, source))?;
+        let (file, len, known) = opened;
+        Ok((Self { path, file: Mutex::new((file, len)) }, known))
+    }
+
+    /// Adds a line at once; where that fails, the part is built again next time.
+    pub(super) fn append(&self, value: &Value) -> Line {
+        let text = format!("{value}\n");
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let start = file.1;
+        // One write per line, so that lines of several threads never mix.
+        let _ = file.0.write_all(text.as_bytes());
+        file.1 = file.0.stream_position().unwrap_or(start + text.len() as u64);
+        Line::new(value, start, text.len())
+    }
+
+    /// Puts a list of these lines, in their order, in the place of the one that grew.
+    ///
+    /// # Errors
+    ///
+    /// When it cannot be read or replaced.
+    pub(super) fn replace(self, lines: &[Line]) -> Result<(), Failure> {
+        let (mut file, _) = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut text = Vec::new();
+        let replaced = nephrite_formats::publish(&self.path, |out| {
+            lines.iter().try_for_each(|line| {
+                text.resize(line.len, 0);
+                file.seek(SeekFrom::Start(line.start))?;
+                file.read_exact(&mut text)?;
+                out.write_all(&text)
+            })
+        });
+        replaced.map_err(|source| Failure::file(&self.path, source))
+    }
+}
+
+/// The file at its end, its length, and what it holds.
+fn open(path: &Path) -> io::Result<(File, u64, BTreeMap<PathBuf, Line>)> {
+    let mut file = File::options().create(true).truncate(false).read(true).write(true).open(path)?;
+    let mut known = BTreeMap::new();
+    let (mut start, mut text) = (0_u64, Vec::new());
+    let mut reader = BufReader::new(&file);
+    while reader.read_until(b'\n', &mut text)? > 0 {
+        if let (Ok(value), Some(b'\n')) = (serde_json::from_slice::<Value>(&text), text.last()) {
+            if let Some(part) = value["part"].as_str() {
+                let line = Line { is_unchanged: true, ..Line::new(&value, start, text.len()) };
+                known.insert(PathBuf::from(part), line);
+            }
+        } else {
+            break;
+        }
+        start += text.len() as u64;
+        text.clear();
+    }
+    // Behind the last whole line may be the beginning of one whose run was stopped.
+    file.seek(SeekFrom::Start(start))?;
+    file.set_len(start)?;
+    Ok((file, start, known))
+}
