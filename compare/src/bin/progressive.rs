@@ -46,6 +46,17 @@ decimate.SetTargetReduction(float(sys.argv[2])); decimate.BoundaryVertexDeletion
 start = time.perf_counter(); decimate.Update(); print(time.perf_counter() - start)
 ";
 
+/// Reads a mesh and prints what Draco makes of it from its usual quantisation to the finest.
+const DRACO: &str = "
+import sys, vtk, DracoPy
+from vtk.util.numpy_support import vtk_to_numpy
+reader = vtk.vtkPLYReader(); reader.SetFileName(sys.argv[1]); reader.Update(); mesh = reader.GetOutput()
+points = vtk_to_numpy(mesh.GetPoints().GetData())
+faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype('uint32')
+for bits in (11, 14, 22, 30):
+    print(bits, len(DracoPy.encode(points, faces, quantization_bits=bits, compression_level=7)))
+";
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     for path in &arguments.meshes {
@@ -84,8 +95,9 @@ fn compare(path: &Path, arguments: &Arguments) -> Result<(), Box<dyn std::error:
         ]);
     }
     println!("{table}");
-    print_stream(&decimate(&mesh, 1.0, arguments.pre_split)?, arguments.repeats)?;
-    Ok(())
+    let build = decimate(&mesh, 1.0, arguments.pre_split)?;
+    print_stream(&build, arguments.repeats)?;
+    print_codecs(&mesh, path, arguments.python.as_deref())
 }
 
 fn decimate(mesh: &TriangleMesh, reduction: f64, pre_split: bool) -> Result<Build, CompareError> {
@@ -94,6 +106,39 @@ fn decimate(mesh: &TriangleMesh, reduction: f64, pre_split: bool) -> Result<Buil
     options.progressive.reduction = Some(reduction);
     options.progressive.pre_split = pre_split;
     Ok(build(mesh, &options, &|_| ControlFlow::Continue(()))?)
+}
+
+/// What other codecs make of the same triangles and positions, in bits per vertex. meshoptimizer's keep every bit, in the order that
+/// suits them best. Draco's quantise the positions, and give one level; it is called through Python (`pip install DracoPy`).
+fn print_codecs(
+    mesh: &TriangleMesh,
+    path: &Path,
+    python: Option<&Path>,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let n_vertices = mesh.positions.len();
+    let bits = |n_bytes: usize| 8.0 * n_bytes as f64 / n_vertices as f64;
+    let mut indices = meshopt::optimize_vertex_cache(mesh.triangles.as_flattened(), n_vertices);
+    let positions = meshopt::optimize_vertex_fetch(&mut indices, &mesh.positions);
+    let connectivity = meshopt::encode_index_buffer(&indices, positions.len())?.len();
+    let geometry = meshopt::encode_vertex_buffer(&positions)?.len();
+    println!(
+        "meshoptimizer: {:.1} bits per vertex ({:.1} of indices, {:.1} of positions), lossless",
+        bits(connectivity + geometry),
+        bits(connectivity),
+        bits(geometry)
+    );
+    if let Some(python) = python {
+        let output = Command::new(python).args(["-c", DRACO]).arg(path).output()?;
+        for line in String::from_utf8_lossy(&output.stdout).lines() {
+            if let Some((quantization, n_bytes)) = line.split_once(' ') {
+                println!(
+                    "Draco: {:.1} bits per vertex at {quantization} bits a coordinate",
+                    bits(n_bytes.parse()?)
+                );
+            }
+        }
+    }
+    Ok(())
 }
 
 fn vtk_seconds(python: &Path, mesh: &Path, reduction: f64) -> Result<f64, Box<dyn std::error::Error>> {
