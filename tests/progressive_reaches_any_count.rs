@@ -17,6 +17,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 #[path = "support/every_step.rs"]
+#[allow(unreachable_pub, reason = "shared")]
 mod every_step;
 
 fn decimate(mesh: &TriangleMesh, change: impl FnOnce(&mut BuildOptions)) -> Build {

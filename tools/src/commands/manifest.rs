@@ -42,9 +42,8 @@ pub(super) struct Line {
 impl Line {
     fn new(value: &Value, start: u64, len: usize) -> Self {
         let text = |key: &str| Some(value[key].as_str()?.to_owned());
-        let facts = || {
-            Some(Facts { output: text("output")?, content: text("content")?, options: text("options")? })
-        };
+        let facts =
+            || Some(Facts { output: text("output")?, content: text("content")?, options: text("options")? });
         Self {
             facts: facts(),
             file_bytes: value["file_bytes"].as_u64(),
