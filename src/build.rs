@@ -13,9 +13,7 @@ use crate::decimate::progressive::wedges::Wedges;
 use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
-use crate::mesh::{
-    RepairReport, Repaired, Seams, Surface, TooMany, along_a_curve, check_counts, repair,
-};
+use crate::mesh::{RepairReport, Repaired, Seams, Surface, TooMany, along_a_curve, check_counts, repair};
 use nephrite_formats::TriangleMesh;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;

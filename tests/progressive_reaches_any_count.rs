@@ -51,6 +51,19 @@ fn surfaces_of_every_topology_go_down_to_nothing() {
 }
 
 #[test]
+fn vertices_judged_many_at_once_leave_the_same_on_any_number_of_threads() {
+    for mesh in [generate::sphere(32), generate::terrain(100, 1)] {
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| decimate(&mesh, |_| {}))
+        };
+        let alone = on(1);
+        check("large", &alone);
+        assert!(alone.history == on(3).history && alone.passage == on(5).passage);
+    }
+}
+
+#[test]
 fn soups_and_odd_stars_go_down_to_nothing() {
     let grid = |n: u32| (0..n).map(|i| [(i * 7 % 13) as f32, (i * 5 % 11) as f32, (i * 3 % 7) as f32]);
     let soup = TriangleMesh {

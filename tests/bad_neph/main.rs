@@ -12,6 +12,7 @@ mod contents;
 #[path = "../support/corpus.rs"]
 mod corpus;
 mod heads;
+mod operations;
 #[path = "../support/mod.rs"]
 mod support;
 mod trees;
@@ -31,7 +32,7 @@ fn corpus() -> Corpus {
 
 /// All files, by name: small valid ones with one thing wrong, all checksums made right where the fault is not in them.
 fn cases() -> BTreeMap<String, Vec<u8>> {
-    let lists = [heads::cases(), contents::cases(), trees::cases()];
+    let lists = [heads::cases(), contents::cases(), operations::cases(), trees::cases()];
     let n_cases: usize = lists.iter().map(Vec::len).sum();
     let cases: BTreeMap<_, _> =
         lists.into_iter().flatten().map(|(name, bytes)| (format!("{name}.neph"), bytes)).collect();
