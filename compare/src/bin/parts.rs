@@ -42,7 +42,7 @@ fn main() -> ExitCode {
 /// Parts of sizes that fill the range evenly, whatever their number: multiples of the golden section do.
 fn part(index: u32) -> (&'static str, TriangleMesh) {
     let share = (f64::from(index) * 0.618_033_988_749_895).fract();
-    let wished = 1200.0 + 8500.0 * share;
+    let wished = 1600.0 + 8300.0 * share;
     let of_squares = |per_square: f64| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a hundred squares")]
         let n_squares = (wished / per_square) as u32;
