@@ -254,7 +254,10 @@ pub fn build(
                 let error = decimation.journal.recorder.error();
                 tell(Phase::Decimate, decimation.complex.n_triangles(), error)
             };
-            let (history, passage) = decimate_progressively(&mesh, points_and_looks, options, &go_on)?;
+            // Inside the pool from the start: to enter it for each of the many short parallel parts would cost more than they do.
+            let decimate =
+                |_: &rayon::Scope<'_>| decimate_progressively(&mesh, points_and_looks, options, &go_on);
+            let (history, passage) = rayon::scope(decimate)?;
             Ok(Build {
                 mesh: with_copies(mesh, passage.trace.copies.iter().map(|&copied| (copied, None))),
                 history,
