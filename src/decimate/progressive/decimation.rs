@@ -20,6 +20,8 @@ use rayon::prelude::*;
 /// Stars of more triangles than this are not looked at again after every change of a neighbour, but after every
 /// so many that a part of the star may have changed: a fan of a hundred thousand triangles would cost their square.
 const LARGE_VALENCE: usize = 64;
+/// So many vertices in the queue are many: the last ones, whose errors are largest, are always queued with what they are.
+const MANY: usize = 2048;
 /// Operations between two calls of the observer.
 const WATCH_INTERVAL: usize = 1024;
 
@@ -234,13 +236,13 @@ impl Decimation {
         }
     }
 
-    /// The star of `v` has changed. A vertex in the queue is looked at when its turn comes: its error will rarely have become
-    /// less. One that waits for a split may be free now and is looked at at once; a large star only when an eighth of it may
-    /// have changed.
+    /// The star of `v` has changed. While many are queued a vertex among them is looked at when its turn comes: its error will rarely
+    /// have become less. Others are looked at at once, as one that waits for a split may be free now; a large star only when
+    /// an eighth of it may have changed.
     pub(super) fn note_change(&mut self, v: u32) {
         self.changed_in[v as usize] = self.n_rounds;
-        if self.queue.contains(v) {
-            self.choices.forget(v);
+        self.choices.forget(v);
+        if self.queue.contains(v) && self.queue.len() >= MANY {
             return;
         }
         let n_changes = &mut self.n_changes[v as usize];
