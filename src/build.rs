@@ -13,7 +13,9 @@ use crate::decimate::progressive::wedges::Wedges;
 use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
-use crate::mesh::{RepairReport, Repaired, Seams, Surface, TooMany, along_a_curve, check_counts, repair};
+use crate::mesh::{
+    Numbering, RepairReport, Repaired, Seams, Surface, TooMany, along_a_curve, check_counts, repair,
+};
 use nephrite_formats::TriangleMesh;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -320,22 +322,26 @@ fn decimate(
     options: &BuildOptions,
     go_on: &dyn Fn(&Decimation) -> bool,
 ) -> Result<(History, Option<Moves>), BuildError> {
-    let triangles = mesh.triangles.clone();
+    let numbering = Numbering::along_curve(&mesh.positions);
+    let mut triangles = mesh.triangles.clone();
+    numbering.sort_triangles(&mut triangles);
     let moves =
         (options.jade.placement == Placement::Best).then(|| Moves::new(&mesh.positions, triangles.len()));
+    let place = |triangles: &[[u32; 3]]| triangles.iter().map(|t| t.map(|v| numbering.place(v))).collect();
     let (triangles, seams) = match points_and_looks {
         // A vertex that moves is a new vertex at the same point, which only seams tell apart.
         None if moves.is_some() => {
             let looks = (0..).take(mesh.positions.len()).collect();
-            (triangles.clone(), Some(Seams::new(triangles, looks)))
+            (place(&triangles), Some(Seams::new(triangles, looks)))
         }
-        None => (triangles, None),
+        None => (place(&triangles), None),
         Some((points, looks)) => {
-            let over_points = triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
-            (over_points, Some(Seams::new(triangles, looks)))
+            let over_points: Vec<[u32; 3]> =
+                triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
+            (place(&over_points), Some(Seams::new(triangles, looks)))
         }
     };
-    let surface = Surface::new(mesh.positions.clone(), triangles);
+    let surface = Surface::new(numbering.arrange(&mesh.positions), triangles);
     let error = match options.bound {
         Bound::Certified => GlobalError::Certified(Certified::new(&surface, mesh.rounding)),
         Bound::Joint => GlobalError::Estimate(Estimate::new(Kind::Joint, &surface)),
@@ -347,6 +353,7 @@ fn decimate(
         recorder: Recorder::new(surface.n_slots(), surface.n_vertices(), mesh.rounding),
         surface,
         seams,
+        names: numbering.into_vertices(),
         cos_feature_angle: options.feature_angle_degrees.to_radians().cos(),
         aspect_loss: options.jade.aspect_loss,
         c2: options.jade.c2,
@@ -357,9 +364,7 @@ fn decimate(
     if !run(&mut decimation, thresholds, go_on) {
         return Err(BuildError::Interrupted);
     }
-    let Decimation { surface, seams, recorder, moves, .. } = decimation;
-    let vertices = |slot: u32, corners| seams.as_ref().map_or(corners, |seams| seams.corners(slot));
-    Ok((recorder.finish(surface.iter().map(|(slot, corners)| (slot, vertices(slot, corners)))), moves))
+    Ok(decimation.finish())
 }
 
 /// Length of the diagonal of the mesh's bounding box, in mesh units.

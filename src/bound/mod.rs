@@ -24,7 +24,6 @@ pub struct Replacement<'a> {
 
 /// The error of the current mesh, in one meaning or the other.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one per decimation")]
 pub enum GlobalError {
     /// Proven.
     Certified(Certified),
@@ -42,23 +41,58 @@ pub enum Change {
 }
 
 impl GlobalError {
-    /// What the replacement changes, found without changing it. After [`Certified::bound`] of the same replacement, with
-    /// the same buffers.
-    pub fn change(&self, replacement: Replacement<'_>, covered: &Covered, transfer: &mut Transfer) -> Change {
+    /// Errors of the replacement, or lower bounds of them once one is above its limit. `covered` holds what is mapped into the
+    /// hole where the error is certified.
+    pub fn errors(
+        &self,
+        replacement: Replacement<'_>,
+        covered: &Covered,
+        limits: Limits,
+        transfer: &mut Transfer,
+    ) -> Errors {
         match self {
-            Self::Certified(certified) => Change::Certified(certified.change(replacement, covered, transfer)),
-            Self::Estimate(estimate) => Change::Estimate(estimate.change(replacement)),
+            Self::Certified(certified) => {
+                Errors { local: 0.0, global: certified.bound(replacement, covered, limits.global, transfer) }
+            }
+            Self::Estimate(estimate) => estimate.errors(replacement, limits),
         }
     }
 
-    /// Changes found from now on are current until one that they depend on is applied.
-    pub fn start_batch(&mut self) {
+    /// What the replacement changes, found without changing it, and its errors; only the errors where they are above the
+    /// limits.
+    pub fn change(
+        &self,
+        replacement: Replacement<'_>,
+        covered: &Covered,
+        limits: Limits,
+        transfer: &mut Transfer,
+    ) -> Result<(Errors, Change), Errors> {
+        match self {
+            Self::Certified(certified) => {
+                let found = certified.change(replacement, covered, limits.global, transfer);
+                let errors = |global| Errors { local: 0.0, global };
+                found.map(|(global, change)| (errors(global), Change::Certified(change))).map_err(errors)
+            }
+            Self::Estimate(estimate) => {
+                let errors = estimate.errors(replacement, limits);
+                let is_within = errors.within(limits);
+                if is_within {
+                    Ok((errors, Change::Estimate(estimate.change(replacement))))
+                } else {
+                    Err(errors)
+                }
+            }
+        }
+    }
+
+    /// Gives back memory that finished removals left behind; changes found before are no longer current.
+    pub fn compact(&mut self) {
         if let Self::Certified(certified) = self {
-            certified.start_batch();
+            certified.compact();
         }
     }
 
-    /// Whether a change found in this batch may still be applied.
+    /// Whether a change found since the last [`Self::compact`] may still be applied.
     pub fn is_current(&self, change: &Change) -> bool {
         match (self, change) {
             (Self::Certified(certified), Change::Certified(change)) => certified.is_current(change),

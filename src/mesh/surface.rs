@@ -80,7 +80,7 @@ impl Surface {
     }
 
     /// Slots in use and their triangles.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 3])> {
+    pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 3])> + Clone {
         (0..).zip(self.triangles.iter().copied()).filter(|&(_, corners)| corners != GONE)
     }
 

@@ -61,9 +61,10 @@ impl Certified {
         for &slot in surface.star(v) {
             let onto = Onto::Triangle(opposite(surface, slot, v).map(|corner| surface.point(corner)));
             // A vertex on the rim of the mesh is mapped to an edge there, which the star of an inner vertex has in its link.
-            let moving = self.removed.of(slot).filter(|&x| self.rim_corner[x as usize] == NOT_ON_RIM);
+            let vertices = self.contents.vertices(slot).iter().copied();
+            let moving = vertices.filter(|&x| self.rim_corner[x as usize] == NOT_ON_RIM);
             images.extend(moving.map(|x| Image { source: surface.origin(x), onto }));
-            edges.extend(self.chains.edges_through(slot));
+            edges.extend_from_slice(self.contents.edges(slot));
         }
         edges.sort_unstable();
         edges.dedup();
@@ -72,7 +73,7 @@ impl Certified {
 
     fn crossings_at(&self, surface: &Surface, v: u32, edge: u32, images: &mut Vec<Image>) -> bool {
         let [low, high] = self.source.ends(edge).map(|end| surface.origin(end));
-        let mut portions = self.chains.of(edge);
+        let mut portions = self.chains.of(edge).iter().copied();
         let Some(mut before) = portions.next() else { return true };
         for after in portions {
             let [from, into] = [before.slot, after.slot].map(|slot| surface.corners(slot));

@@ -17,22 +17,23 @@
 //! hole's [`dual_tree`] has.
 
 pub mod chains;
+pub mod contents;
 pub mod dual_tree;
 pub mod images;
 mod labels;
 mod removal;
+mod route;
 pub mod source;
 mod transfer;
 
 use super::Replacement;
 use super::covered::Covered;
-use super::removed::RemovedVertices;
 use crate::geometry::vector::{length, max, min, widen};
 use crate::mesh::{Hole, Surface};
 use chains::Chains;
+use contents::Contents;
 use removal::Removal;
 use source::SourceEdges;
-use transfer::Assignment;
 pub use transfer::{Change, Transfer};
 
 /// No slot, or no corner.
@@ -49,14 +50,11 @@ const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 pub struct Certified {
     source: SourceEdges,
     chains: Chains,
-    removed: RemovedVertices,
+    contents: Contents,
     /// Slot of the triangle that each removed vertex belongs to.
     slot_of: Vec<u32>,
     /// For a removed vertex of the boundary: the corner of its triangle at which its boundary edge starts.
     rim_corner: Vec<u8>,
-    /// Last batch in which the chain of each source edge was set.
-    set_in_batch: Vec<u32>,
-    batch: u32,
     slack: f64,
 }
 
@@ -70,12 +68,10 @@ impl Certified {
         // The box about mesh and origin: no less than the diagonal of the mesh, or than any coordinate.
         let extent = length(low) + length(high);
         Self {
-            chains: Chains::new(source.n_edges(), n_slots),
-            removed: RemovedVertices::new(n_slots, n_vertices),
+            chains: Chains::new(source.n_edges()),
+            contents: Contents::new(n_slots),
             slot_of: vec![NONE; n_vertices],
             rim_corner: vec![NOT_ON_RIM; n_vertices],
-            set_in_batch: vec![0; source.n_edges()],
-            batch: 0,
             source,
             slack: SLACK * extent + rounding,
         }
@@ -93,45 +89,75 @@ impl Certified {
         transfer.displacement(Removal { certified: self, replacement, covered }, limit) + self.slack
     }
 
-    /// What the replacement changes in the map. After [`Self::bound`] of the same replacement, with the same `transfer`.
-    pub fn change(&self, replacement: Replacement<'_>, covered: &Covered, transfer: &mut Transfer) -> Change {
-        transfer.change(Removal { certified: self, replacement, covered })
+    /// What the replacement changes in the map, and the bound; or a bound above `limit`. O(vertices and edges mapped into the
+    /// star).
+    pub fn change(
+        &self,
+        replacement: Replacement<'_>,
+        covered: &Covered,
+        limit: f64,
+        transfer: &mut Transfer,
+    ) -> Result<(f64, Change), f64> {
+        match transfer.change(Removal { certified: self, replacement, covered }, limit) {
+            Ok((displacement, change)) if displacement + self.slack <= limit => {
+                Ok((displacement + self.slack, change))
+            }
+            Ok((displacement, _)) | Err(displacement) => Err(displacement + self.slack),
+        }
     }
 
-    /// Starts a batch of changes that are found first and applied afterwards.
-    pub fn start_batch(&mut self) {
-        self.batch += 1;
-    }
-
-    /// Whether no chain that `change` sets was set since the batch started. All else that a change depends on belongs to
-    /// its own star.
+    /// Whether no chain that `change` sets was set since it was found. All else that a change depends on belongs to its own
+    /// star. Holds until [`Self::compact`].
     pub fn is_current(&self, change: &Change) -> bool {
-        change.chains.iter().all(|&(edge, _)| self.set_in_batch[edge as usize] != self.batch)
+        change.chains.iter().all(|chain| self.chains.version(chain.edge) == chain.replaces)
     }
 
     /// Carries the map over to the filling.
     pub fn apply(&mut self, hole: &Hole, change: &Change) {
+        let Change { assignments, chains, portions, through } = change;
         let mut start = 0;
-        for &(edge, end) in &change.chains {
-            self.chains.set(edge, &change.portions[start..end]);
-            self.set_in_batch[edge as usize] = self.batch;
-            start = end;
+        for chain in chains {
+            self.chains.set(chain.edge, &portions[start..chain.end]);
+            start = chain.end;
         }
-        self.removed.clear(hole);
-        for &Assignment { vertex, label, rim_corner } in &change.assignments {
-            let slot = hole.slots[usize::from(label)];
-            self.removed.add(vertex, slot);
-            self.slot_of[vertex as usize] = slot;
-            self.rim_corner[vertex as usize] = rim_corner;
+        hole.slots.iter().for_each(|&slot| self.contents.clear(slot));
+        let (mut assignments, mut through) = (assignments.as_slice(), through.as_slice());
+        for (label, &slot) in (0..).zip(&hole.slots) {
+            let vertices = take_while(&mut assignments, |assignment| assignment.label == label);
+            let edges = take_while(&mut through, |&(through, _)| through == label);
+            self.contents.fill(
+                slot,
+                vertices.iter().map(|assignment| assignment.vertex),
+                edges.iter().map(|&(_, edge)| edge),
+            );
+            for assignment in vertices {
+                self.slot_of[assignment.vertex as usize] = slot;
+                self.rim_corner[assignment.vertex as usize] = assignment.rim_corner;
+            }
         }
+    }
+
+    /// Gives back memory that finished removals left behind; cheap enough to call after every batch.
+    pub fn compact(&mut self) {
+        self.chains.compact();
+        self.contents.compact();
     }
 
     /// Source vertices whose image lies in the star of `hole`, the removed one first.
     pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = u32> + 'a {
-        self.removed.of_hole(hole)
+        let mapped = hole.slots.iter().flat_map(|&slot| self.contents.vertices(slot));
+        std::iter::once(hole.removed).chain(mapped.copied())
     }
 
     fn is_alive(&self, v: u32) -> bool {
         self.slot_of[v as usize] == NONE
     }
+}
+
+/// Takes the leading ones off `rest`.
+fn take_while<'a, T>(rest: &mut &'a [T], is_leading: impl Fn(&T) -> bool) -> &'a [T] {
+    let n_leading = rest.iter().take_while(|&item| is_leading(item)).count();
+    let (leading, others) = rest.split_at(n_leading);
+    *rest = others;
+    leading
 }

@@ -1,7 +1,8 @@
 //! What a removal means for the map: where its vertices and edges lie in the star and in the filling.
 
 use super::chains::Portion;
-use super::{Certified, NONE, NOT_ON_RIM};
+use super::labels::Labels;
+use super::{Certified, NOT_ON_RIM};
 use crate::bound::Replacement;
 use crate::bound::covered::{Covered, Over};
 use crate::bound::removed::nearest;
@@ -29,31 +30,45 @@ impl Removal<'_> {
         found.unwrap_or_default() as u8
     }
 
-    /// The slot of an edge that is all in one triangle. Between two vertices that are alive it is a mesh edge, and in
-    /// the hole only when it ends at the removed vertex.
-    pub(super) fn only_slot(&self, low: u32, high: u32) -> u32 {
-        match [low, high].map(|v| self.certified.slot_of[v as usize]) {
-            [NONE, NONE] => self.replacement.hole.slots[0],
-            [NONE, slot] | [slot, _] => slot,
-        }
+    /// Source edges whose chain, old or new, has more than one portion and passes through the hole, given where the vertices
+    /// go; each once. A chain is met in the slot of its first portion there; an edge without one at its ends, both of which
+    /// are corners of the star or mapped into it.
+    pub(super) fn moved_edges<'a>(self, labels: &'a Labels) -> impl Iterator<Item = u32> + 'a
+    where
+        Self: 'a,
+    {
+        let Removal { certified, replacement: Replacement { hole, .. }, covered } = self;
+        let Certified { source, chains, contents, .. } = certified;
+        let first_here = move |edge: u32| {
+            let slots = chains.of(edge).iter().map(|portion| portion.slot);
+            { slots }.find(|&slot| self.star_index(slot).is_some())
+        };
+        let chained = hole.slots.iter().flat_map(move |&slot| {
+            contents.edges(slot).iter().copied().filter(move |&edge| first_here(edge) == Some(slot))
+        });
+        let split = covered.vertices.iter().flat_map(move |&v| {
+            let label = labels.get(v).unwrap_or_default();
+            let up = source.up(v).filter(move |&(_, other)| match labels.get(other) {
+                Some(other_label) => other_label != label,
+                None => !self.has_corner(label, other),
+            });
+            let is_split_below =
+                move |other: u32| labels.get(other).is_none() && !self.has_corner(label, other);
+            let down = source.down(v).filter(move |&(_, other)| is_split_below(other));
+            up.chain(down).map(|(edge, _)| edge).filter(|&edge| !chains.has(edge))
+        });
+        chained.chain(split)
     }
 
-    /// A triangle near the covered vertex at index `at`, and its squared distance: the one that the vertex lies over
-    /// where that is no farther than `enough_sq`, the nearest one otherwise.
-    pub(super) fn near(&self, at: usize, p: Vector, enough_sq: f64) -> (u8, f64) {
+    /// The triangle that the covered vertex at index `at` lies over, or else the nearest one, and its squared distance.
+    pub(super) fn near(&self, at: usize, p: Vector) -> (u8, f64) {
+        let Replacement { hole, filling, .. } = self.replacement;
         let is_over = |&(_, &triangle): &(u8, &[u8; 3])| self.covered.is_over(at, Over::new(triangle));
-        let candidates =
-            if self.covered.has_sides() { self.replacement.filling.triangles.as_slice() } else { &[] };
-        if let Some((label, _)) = (0..).zip(candidates).find(is_over) {
-            let distance_sq = point_triangle_distance_sq(
-                p,
-                &self.replacement.filling.triangle(self.replacement.hole, label.into()),
-            );
-            if distance_sq <= enough_sq {
-                return (label, distance_sq);
-            }
+        let candidates = if self.covered.has_sides() { filling.triangles.as_slice() } else { &[] };
+        match (0..).zip(candidates).find(is_over) {
+            Some((label, _)) => (label, point_triangle_distance_sq(p, &filling.triangle(hole, label.into()))),
+            None => self.nearest(p),
         }
-        self.nearest(p)
     }
 
     /// Whether the filling's triangle `label` has the corner `v`.

@@ -1,7 +1,7 @@
 //! One vertex as a candidate for removal: its hole, the filling, and the errors that would follow.
 
 use super::classify::{Class, classify};
-use super::fit::fit;
+use super::fit::{Fitting, fit};
 use super::flip::flip_edges;
 use super::triangulate::{Polygons, triangulate};
 use crate::bound::certified::images::Image;
@@ -53,59 +53,71 @@ pub struct Scratch {
     pub images: Vec<Image>,
 }
 
-/// Judges the removal of `v` under `limits`; leaves hole and filling in `scratch`.
+/// Judges the removal of `v` under `limits`.
 pub fn judge(situation: Situation<'_>, v: u32, limits: Limits, scratch: &mut Scratch) -> Verdict {
+    if let Err(verdict) = fill(situation, v, limits, scratch) {
+        return verdict;
+    }
+    let Scratch { hole, filling, covered, transfer, .. } = scratch;
+    let replacement = Replacement { surface: situation.surface, hole, filling };
+    let errors = situation.error.errors(replacement, covered, limits, transfer);
+    if errors.within(limits) { Verdict::Removable(errors) } else { Verdict::Above(errors) }
+}
+
+/// Leaves hole and filling of `v` in `scratch`, or tells why they need not be looked at.
+pub(super) fn fill(
+    situation: Situation<'_>,
+    v: u32,
+    limits: Limits,
+    scratch: &mut Scratch,
+) -> Result<(), Verdict> {
     let Situation { surface, seams, error, cos_feature_angle, .. } = situation;
     match scratch.hole.gather(surface, v) {
         Ok(()) if scratch.hole.n_ring() >= 3 => {}
-        Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Verdict::Impossible,
+        Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Err(Verdict::Impossible),
     }
     let class = classify(&scratch.hole, surface, seams, cos_feature_angle);
     if class == Class::SeamCorner {
-        return Verdict::Impossible;
+        return Err(Verdict::Impossible);
     }
-    let errors = match error {
-        GlobalError::Estimate(estimate) => judge_estimate(situation, estimate, class, limits, scratch),
-        GlobalError::Certified(certified) => judge_certified(situation, certified, class, limits, scratch),
-    };
-    match errors {
-        None => Verdict::Impossible,
-        Some(errors) if errors.within(limits) => Verdict::Removable(errors),
-        Some(errors) => Verdict::Above(errors),
+    match error {
+        GlobalError::Estimate(estimate) => fill_as_paper(situation, estimate, class, scratch),
+        GlobalError::Certified(certified) => fill_best(situation, certified, class, limits, scratch),
     }
 }
 
-/// The paper's way: triangulate, flip, estimate.
-fn judge_estimate(
+/// The paper's way: triangulate, then flip.
+fn fill_as_paper(
     situation: Situation<'_>,
     estimate: &Estimate,
     class: Class,
-    limits: Limits,
     scratch: &mut Scratch,
-) -> Option<Errors> {
+) -> Result<(), Verdict> {
     let Scratch { hole, filling, polygons, .. } = scratch;
     if !triangulate(situation.surface, hole, class, polygons, filling) {
-        return None;
+        return Err(Verdict::Impossible);
     }
     flip_edges(situation.surface, hole, estimate.sampler(), situation.aspect_loss, filling);
-    Some(estimate.errors(Replacement { surface: situation.surface, hole, filling }, limits))
+    Ok(())
 }
 
-/// The filling that fits the input best, or the paper's where the hole is too large for that; then the proof.
-fn judge_certified(
+/// The filling that fits the input best, or the paper's where the hole is too large for that.
+fn fill_best(
     situation: Situation<'_>,
     certified: &Certified,
     class: Class,
     limits: Limits,
     scratch: &mut Scratch,
-) -> Option<Errors> {
-    let Scratch { hole, filling, polygons, covered, transfer, .. } = scratch;
+) -> Result<(), Verdict> {
+    let Scratch { hole, filling, polygons, covered, .. } = scratch;
     let surface = situation.surface;
     covered.gather(surface, hole, certified.vertices_in(hole));
-    let global = match fit(surface, hole, class, covered, polygons, filling) {
-        Some(fitted_sq) if fitted_sq > limits.global * limits.global => fitted_sq.sqrt(),
-        None if !triangulate(surface, hole, class, polygons, filling) => return None,
-        _ => certified.bound(Replacement { surface, hole, filling }, covered, limits.global, transfer),
-    };
-    Some(Errors { local: 0.0, global })
+    let limit_sq = limits.global * limits.global;
+    match fit(Fitting { surface, hole, class, covered, limit_sq }, polygons, filling) {
+        Some(fitted_sq) if fitted_sq > limit_sq => {
+            Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
+        }
+        None if !triangulate(surface, hole, class, polygons, filling) => Err(Verdict::Impossible),
+        _ => Ok(()),
+    }
 }

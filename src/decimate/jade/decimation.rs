@@ -3,7 +3,7 @@
 use super::candidate::{Scratch, Situation};
 use super::placement::Moves;
 use crate::bound::GlobalError;
-use crate::history::Recorder;
+use crate::history::{History, Recorder};
 use crate::mesh::{Seams, Surface};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -13,6 +13,8 @@ pub struct Decimation {
     pub surface: Surface,
     /// Its seams, if it has any.
     pub seams: Option<Seams>,
+    /// Vertex of the input for each vertex of `surface`.
+    pub names: Vec<u32>,
     /// Its errors.
     pub error: GlobalError,
     /// The history so far.
@@ -39,6 +41,22 @@ impl Decimation {
             cos_feature_angle: self.cos_feature_angle,
             aspect_loss: self.aspect_loss,
         }
+    }
+
+    /// The history, with what is still alive, and the vertices that moved.
+    pub fn finish(self) -> (History, Option<Moves>) {
+        let Self { surface, seams, names, recorder, moves, .. } = self;
+        let alive = surface.iter().map(|(slot, _)| slot);
+        let named = alive.map(|slot| (slot, named_corners(&surface, seams.as_ref(), &names, slot)));
+        (recorder.finish(named), moves)
+    }
+}
+
+/// The vertices of the input at the corners of the triangle in `slot`.
+pub(super) fn named_corners(surface: &Surface, seams: Option<&Seams>, names: &[u32], slot: u32) -> [u32; 3] {
+    match seams {
+        Some(seams) => seams.corners(slot),
+        None => surface.corners(slot).map(|v| names[v as usize]),
     }
 }
 

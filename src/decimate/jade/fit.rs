@@ -10,20 +10,34 @@ use super::optimal::triangulate_optimally;
 use super::triangulate::{Polygons, collect_part, ring_index};
 use super::validity::{WORST_ASPECT, aspect, worst_star_aspect};
 use crate::bound::covered::{Covered, MAX_CORNERS, Over};
-use crate::geometry::distance::point_triangle_distance_sq;
+use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
+use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::{Filling, Hole, Surface};
 
-/// Fills `hole` by triangles that face the side of its star, keep the topology and lie nearest to the points in
-/// `covered`. Returns the largest distance among points and the triangles they lie over, squared, or `None` where there
-/// is no such filling or the hole is too large.
-pub fn fit(
-    surface: &Surface,
-    hole: &Hole,
-    class: Class,
-    covered: &Covered,
-    polygons: &mut Polygons,
-    filling: &mut Filling,
-) -> Option<f64> {
+/// How many times the limit, squared, a distance is followed up: what a candidate that failed needs is then known well enough
+/// for the next limit, and farther off it does not matter.
+const CUTOFF: f64 = 2.0;
+
+/// A hole to be filled.
+#[derive(Clone, Copy, Debug)]
+pub struct Fitting<'a> {
+    /// The mesh around it.
+    pub surface: &'a Surface,
+    /// The hole.
+    pub hole: &'a Hole,
+    /// Whether it is to be split.
+    pub class: Class,
+    /// What the filling will stand for.
+    pub covered: &'a Covered,
+    /// The largest squared distance that is of use.
+    pub limit_sq: f64,
+}
+
+/// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to the points
+/// covered. Returns the largest distance among points and the triangles they lie over, squared, or a lower bound of it that
+/// is above the limit; `None` where there is no such filling or the hole is too large.
+pub fn fit(fitting: Fitting<'_>, polygons: &mut Polygons, filling: &mut Filling) -> Option<f64> {
+    let Fitting { surface, hole, covered, limit_sq, .. } = fitting;
     let is_tetrahedron = hole.closed && hole.n_ring() == 3 && surface.has_triangle(triple(hole));
     if !covered.has_sides() || is_tetrahedron {
         return None;
@@ -31,7 +45,10 @@ pub fn fit(
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
     let mut is_taken = [[false; MAX_CORNERS]; MAX_CORNERS];
     loop {
-        let worst_sq = fit_around(hole, class, covered, &is_taken, polygons, filling)?;
+        let worst_sq = fit_around(fitting, &is_taken, polygons, filling)?;
+        if worst_sq > limit_sq {
+            return Some(worst_sq);
+        }
         let n_faces = |[i, j]: [u8; 2]| surface.n_faces(hole.ring[usize::from(i)], hole.ring[usize::from(j)]);
         let Some([i, j]) = filling.inner_edges(hole).find(|&edge| n_faces(edge) > 0) else {
             return Some(worst_sq);
@@ -43,13 +60,12 @@ pub fn fit(
 
 /// The same without the edges between ring vertices that are taken.
 fn fit_around(
-    hole: &Hole,
-    class: Class,
-    covered: &Covered,
+    fitting: Fitting<'_>,
     is_taken: &[[bool; MAX_CORNERS]; MAX_CORNERS],
     polygons: &mut Polygons,
     filling: &mut Filling,
 ) -> Option<f64> {
+    let Fitting { hole, class, covered, limit_sq, .. } = fitting;
     filling.triangles.clear();
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     let score = |triangle: [u8; 3], cutoff: f64| {
@@ -57,7 +73,7 @@ fn fit_around(
         if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
             return f64::INFINITY;
         }
-        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff)
+        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff.min(CUTOFF * limit_sq))
     };
     let (from, to, is_split) = match class {
         Class::InteriorEdge([from, to]) => (from, to, true),
@@ -88,14 +104,48 @@ fn largest_distance_sq(
         return f64::INFINITY;
     }
     let corners = triangle.map(|i| hole.points[usize::from(i)]);
+    if aspect(&corners) < worst_aspect {
+        return f64::INFINITY;
+    }
+    let floor = Floor::new(corners);
     let mut largest_sq = 0.0_f64;
     for p in covered.points_over(Over::new(triangle)) {
-        largest_sq = largest_sq.max(point_triangle_distance_sq(p, &corners));
+        largest_sq = largest_sq.max(floor.distance_sq(p));
         if largest_sq > cutoff {
-            return largest_sq;
+            break;
         }
     }
-    if aspect(&corners) < worst_aspect { f64::INFINITY } else { largest_sq }
+    largest_sq
+}
+
+/// A triangle under points most of which have the foot of their perpendicular inside: their distance is a height.
+struct Floor {
+    corners: Triangle,
+    normal: Vector,
+    /// Perpendicular to the normal and to one edge at the first corner.
+    across: [Vector; 2],
+    normal_sq: f64,
+}
+
+impl Floor {
+    fn new(corners: Triangle) -> Self {
+        let (ab, ac) = (sub(corners[1], corners[0]), sub(corners[2], corners[0]));
+        let normal = cross(ab, ac);
+        Self { corners, normal, across: [cross(ac, normal), cross(normal, ab)], normal_sq: length_sq(normal) }
+    }
+
+    /// Squared distance of a point: good enough to choose by, not to prove with.
+    #[inline(always)]
+    fn distance_sq(&self, p: Vector) -> f64 {
+        let ap = sub(p, self.corners[0]);
+        let [v, w] = self.across.map(|axis| dot(ap, axis));
+        if v >= 0.0 && w >= 0.0 && v + w <= self.normal_sq {
+            let height = dot(ap, self.normal);
+            height * height / self.normal_sq
+        } else {
+            point_triangle_distance_sq(p, &self.corners)
+        }
+    }
 }
 
 fn triple(hole: &Hole) -> [u32; 3] {

@@ -1,7 +1,7 @@
 //! One removal: planned in parallel with others, carried out in turn.
 
-use super::candidate::{Scratch, Situation, Verdict, judge};
-use super::decimation::Decimation;
+use super::candidate::{Scratch, Situation, fill};
+use super::decimation::{Decimation, named_corners};
 use crate::bound::{Change, GlobalError, Limits, Replacement};
 use crate::mesh::{Filling, Hole, Seams, Surface};
 
@@ -15,12 +15,20 @@ pub struct Plan {
     change: Change,
 }
 
-/// Plans the removal of `v`, if it is possible within the limits.
-pub fn plan(situation: Situation<'_>, v: u32, limits: Limits, scratch: &mut Scratch) -> Option<Plan> {
-    let Verdict::Removable(errors) = judge(situation, v, limits, scratch) else { return None };
+/// Plans the removal of `v`, which was found removable with a global error of at most `known`, if that still holds: a
+/// removal that has become worse is not to go before others that are better by now.
+pub fn plan(
+    situation: Situation<'_>,
+    v: u32,
+    limits: Limits,
+    known: f64,
+    scratch: &mut Scratch,
+) -> Option<Plan> {
+    fill(situation, v, limits, scratch).ok()?;
     let Scratch { hole, filling, covered, transfer, .. } = scratch;
     let replacement = Replacement { surface: situation.surface, hole, filling };
-    let change = situation.error.change(replacement, covered, transfer);
+    let limits = Limits { global: known, ..limits };
+    let (errors, change) = situation.error.change(replacement, covered, limits, transfer).ok()?;
     Some(Plan { hole: hole.clone(), filling: filling.clone(), error: errors.global, change })
 }
 
@@ -40,13 +48,10 @@ impl Plan {
     /// Carries the plan out: record, errors, mesh, in this order, since each needs the star as it was.
     pub fn carry_out(self, decimation: &mut Decimation) {
         let Self { hole, filling, error: step_error, change } = self;
-        let Decimation { surface, seams, error, recorder, .. } = decimation;
+        let Decimation { surface, seams, names, error, recorder, .. } = decimation;
         recorder.step(step_error);
         for &slot in &hole.slots {
-            recorder.death(
-                slot,
-                seams.as_ref().map_or_else(|| surface.corners(slot), |seams| seams.corners(slot)),
-            );
+            recorder.death(slot, named_corners(surface, seams.as_ref(), names, slot));
         }
         error.apply(&hole, change);
         let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(&hole, i)).collect();

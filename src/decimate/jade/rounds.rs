@@ -30,6 +30,11 @@ struct Candidates {
     picked: Vec<u32>,
     /// Vertices that may still be removed.
     open: Vec<u32>,
+    /// Removable vertices above the ceiling.
+    waiting: Vec<u32>,
+    /// Vertices that were above the limit before their star changed. Most still are: they are judged when nothing else is left,
+    /// and so once for many changes.
+    deferred: Vec<u32>,
 }
 
 /// Marks a vertex that has not been found removable.
@@ -46,14 +51,20 @@ pub fn run(
     let mut limits = thresholds.limits();
     loop {
         let mut worklist = candidates.below(limits, &decimation.surface);
-        while !worklist.is_empty() {
-            if !go_on(decimation) {
-                return false;
+        for ceiling in thresholds.ceilings() {
+            worklist.extend(candidates.take_waiting());
+            while !worklist.is_empty() {
+                if !go_on(decimation) {
+                    return false;
+                }
+                judge_all(decimation, &mut candidates, limits, &worklist);
+                round += 1;
+                let picked = pick(decimation, &mut candidates, round, ceiling, worklist);
+                worklist = remove_all(decimation, &mut candidates, limits, &picked);
+                if worklist.is_empty() && ceiling >= limits.global {
+                    worklist = candidates.take_deferred();
+                }
             }
-            judge_all(decimation, &mut candidates, limits, &worklist);
-            round += 1;
-            let picked = pick(decimation, &mut candidates, round, worklist);
-            worklist = remove_all(decimation, &mut candidates, limits, &picked);
         }
         if placement::is_due(decimation) {
             let moved = placement::improve(decimation, &candidates.open);
@@ -74,6 +85,8 @@ impl Candidates {
             removable: vec![UNKNOWN; n_vertices],
             picked: vec![0; n_vertices],
             open: (0..).take(n_vertices).collect(),
+            waiting: vec![],
+            deferred: vec![],
         }
     }
 
@@ -99,6 +112,40 @@ impl Candidates {
         }
     }
 
+    /// Those that wait and whose star is as it was.
+    fn take_waiting(&mut self) -> Vec<u32> {
+        let mut waiting = sorted(std::mem::take(&mut self.waiting));
+        waiting.retain(|&v| self.is_removable(v));
+        waiting
+    }
+
+    /// Those that were put off, with nothing known of them.
+    fn take_deferred(&mut self) -> Vec<u32> {
+        let mut deferred = sorted(std::mem::take(&mut self.deferred));
+        deferred.retain(|&v| self.needed[v as usize].is_finite());
+        deferred.iter().for_each(|&v| self.forget(v));
+        deferred
+    }
+
+    /// Takes note that the stars of `touched` have changed; gives those to be judged next.
+    fn touch(&mut self, limits: Limits, touched: Vec<u32>) -> Vec<u32> {
+        let mut next = sorted(touched);
+        next.retain(|&v| {
+            let needed = self.needed[v as usize];
+            let is_above = needed.is_finite() && f64::from(needed) > limits.local;
+            if is_above {
+                self.deferred.push(v);
+            }
+            !is_above
+        });
+        next.iter().for_each(|&v| self.forget(v));
+        next
+    }
+
+    fn is_removable(&self, v: u32) -> bool {
+        self.removable[v as usize] < UNKNOWN
+    }
+
     fn forget(&mut self, v: u32) {
         self.needed[v as usize] = 0.0;
         self.removable[v as usize] = UNKNOWN;
@@ -110,14 +157,23 @@ impl Candidates {
     }
 }
 
-/// Judges every vertex of the worklist, in parallel, a part at a time so that verdicts take little memory.
+/// Distinct vertices in ascending order.
+fn sorted(mut vertices: Vec<u32>) -> Vec<u32> {
+    vertices.par_sort_unstable();
+    vertices.dedup();
+    vertices
+}
+
+/// Judges every vertex of the worklist of which nothing is known, in parallel, a part at a time so that verdicts take little
+/// memory.
 fn judge_all(decimation: &Decimation, candidates: &mut Candidates, limits: Limits, worklist: &[u32]) {
     let situation = decimation.situation();
     let judge_chunk = |chunk: &[u32]| {
         let mut scratch = decimation.workers.scratch();
         chunk.iter().map(|&v| judge(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
     };
-    for part in worklist.chunks(PART) {
+    let unknown: Vec<u32> = worklist.iter().copied().filter(|&v| !candidates.is_removable(v)).collect();
+    for part in unknown.chunks(PART) {
         let verdicts: Vec<Verdict> =
             part.par_chunks(chunk_len(part.len())).flat_map_iter(judge_chunk).collect();
         for (&v, verdict) in part.iter().zip(verdicts) {
@@ -133,10 +189,20 @@ fn judge_all(decimation: &Decimation, candidates: &mut Candidates, limits: Limit
     }
 }
 
-/// An independent set of removable vertices, no two of them neighbours: cheapest first, ties to the lower vertex.
-fn pick(decimation: &Decimation, candidates: &mut Candidates, round: u32, worklist: Vec<u32>) -> Vec<u32> {
+/// An independent set of vertices removable below the ceiling, no two of them neighbours: cheapest first, ties to the lower
+/// vertex. Those above the ceiling wait.
+fn pick(
+    decimation: &Decimation,
+    candidates: &mut Candidates,
+    round: u32,
+    ceiling: f64,
+    worklist: Vec<u32>,
+) -> Vec<u32> {
     let mut ranked = worklist;
-    ranked.retain(|&v| candidates.removable[v as usize] < UNKNOWN);
+    ranked.retain(|&v| candidates.is_removable(v));
+    let is_below = |v: u32| f64::from(candidates.removable[v as usize]) <= ceiling;
+    candidates.waiting.extend(ranked.iter().copied().filter(|&v| !is_below(v)));
+    ranked.retain(|&v| is_below(v));
     ranked.par_sort_unstable_by(|&a, &b| {
         let error = |v: u32| candidates.removable[v as usize];
         error(a).total_cmp(&error(b)).then(a.cmp(&b))
@@ -164,12 +230,15 @@ fn remove_all(
 ) -> Vec<u32> {
     let mut touched = vec![];
     for batch in picked.chunks(BATCH) {
-        decimation.error.start_batch();
-        for (&v, planned) in batch.iter().zip(plan_all(decimation, limits, batch)) {
+        decimation.error.compact();
+        for (&v, planned) in batch.iter().zip(plan_all(decimation, candidates, limits, batch)) {
             let is_current = |plan: &Plan| plan.is_current(&decimation.surface, &decimation.error);
             let plan = match planned {
                 Some(plan) if is_current(&plan) => Some(plan),
-                _ => plan(decimation.situation(), v, limits, &mut decimation.workers.scratch()),
+                _ => {
+                    let known = candidates.removable[v as usize].into();
+                    plan(decimation.situation(), v, limits, known, &mut decimation.workers.scratch())
+                }
             };
             match plan {
                 Some(plan) => {
@@ -182,18 +251,21 @@ fn remove_all(
         }
     }
     decimation.surface.compact();
-    touched.par_sort_unstable();
-    touched.dedup();
-    touched.iter().for_each(|&v| candidates.forget(v));
-    touched
+    candidates.touch(limits, touched)
 }
 
 /// Plans the removal of every vertex of the batch, in parallel.
-fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Option<Plan>> {
+fn plan_all(
+    decimation: &Decimation,
+    candidates: &Candidates,
+    limits: Limits,
+    batch: &[u32],
+) -> Vec<Option<Plan>> {
+    let known = |v: u32| candidates.removable[v as usize].into();
     let situation = decimation.situation();
     let plan_chunk = |chunk: &[u32]| {
         let mut scratch = decimation.workers.scratch();
-        chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
+        chunk.iter().map(|&v| plan(situation, v, limits, known(v), &mut scratch)).collect::<Vec<_>>()
     };
     batch.par_chunks(chunk_len(batch.len())).flat_map_iter(plan_chunk).collect()
 }

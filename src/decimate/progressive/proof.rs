@@ -54,8 +54,11 @@ impl Proof {
     /// Carries the map over to the fan that [`Self::bound`] was asked about last.
     pub fn carry_out(&mut self) {
         let Self { surface, certified, hole, filling, covered, transfer } = self;
-        let change = certified.change(Replacement { surface, hole, filling }, covered, transfer);
+        let found =
+            certified.change(Replacement { surface, hole, filling }, covered, f64::INFINITY, transfer);
+        let Ok((_, change)) = found else { return };
         certified.apply(hole, &change);
+        certified.compact();
         let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
         surface.replace_star(hole.removed, &hole.slots, &born);
         surface.compact();

@@ -1,0 +1,174 @@
+//! The way of a source edge through a hole that has been filled.
+
+use super::chains::Portion;
+use super::dual_tree::{Crossing, DualTree};
+use super::labels::Labels;
+use super::removal::Removal;
+use crate::geometry::distance::{Segment, point_segment_distance_sq};
+use crate::geometry::vector::{add_scaled, dot, length_sq, sub};
+
+/// Where the vertices of a hole have gone.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Placement {
+    /// The filling's dual tree.
+    pub(super) tree: DualTree,
+    /// The filling's triangle for each vertex mapped into the hole.
+    pub(super) labels: Labels,
+}
+
+/// The new chain of one edge at a time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Route {
+    /// Its portions.
+    pub(super) portions: Vec<Portion>,
+    path: Vec<Crossing>,
+}
+
+/// One end of a part of a source edge that lies in the hole.
+#[derive(Clone, Copy, Debug)]
+enum End {
+    /// In this triangle of the filling: a removed vertex, or a crossing of the ring edge there.
+    In(u8),
+    /// At this ring vertex, which every triangle around it may claim.
+    At(u8),
+}
+
+/// A part of a source edge that enters the hole and leaves it again.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    entry: End,
+    exit: End,
+    /// Where it begins and ends, as parts of the edge.
+    start: f32,
+    end: f32,
+}
+
+impl Placement {
+    /// The end of a part at a source vertex.
+    fn end_at(&self, removal: Removal<'_>, v: u32) -> End {
+        match self.labels.get(v) {
+            Some(label) => End::In(label),
+            None => End::At(removal.ring_index(v)),
+        }
+    }
+
+    /// The end of a part that comes over the ring edge of the star's triangle `i`.
+    fn end_over(&self, i: usize) -> End {
+        End::In(self.tree.at_ring_edge(i))
+    }
+}
+
+impl Route {
+    /// Makes this the new chain of `edge`; the largest squared displacement of a crossing that is new.
+    pub(super) fn find(&mut self, placement: &Placement, removal: Removal<'_>, edge: u32) -> f64 {
+        let ends = removal.certified.source.ends(edge);
+        let segment = ends.map(|v| removal.replacement.surface.origin(v));
+        // An edge in one portion is known to the hole by its ends alone.
+        let whole = [Portion { slot: removal.replacement.hole.slots[0], end: 1.0 }];
+        let old = match removal.certified.chains.of(edge) {
+            [] => whole.as_slice(),
+            portions => portions,
+        };
+        self.portions.clear();
+        let mut largest_sq = 0.0_f64;
+        let mut start = 0.0;
+        let mut at = 0;
+        while at < old.len() {
+            let Some(first) = removal.star_index(old[at].slot) else {
+                self.portions.push(old[at]);
+                start = old[at].end;
+                at += 1;
+                continue;
+            };
+            let entry = if at == 0 { placement.end_at(removal, ends[0]) } else { placement.end_over(first) };
+            let mut last = first;
+            while let Some(next) = old.get(at + 1).and_then(|portion| removal.star_index(portion.slot)) {
+                last = next;
+                at += 1;
+            }
+            let is_last = at + 1 == old.len();
+            let exit = if is_last { placement.end_at(removal, ends[1]) } else { placement.end_over(last) };
+            let end = old[at].end;
+            largest_sq =
+                largest_sq.max(self.cross(placement, removal, segment, Part { entry, exit, start, end }));
+            start = end;
+            at += 1;
+        }
+        largest_sq
+    }
+
+    /// Appends the portions of one part; the largest squared displacement of its crossings.
+    fn cross(&mut self, placement: &Placement, removal: Removal<'_>, segment: Segment, part: Part) -> f64 {
+        let hole = removal.replacement.hole;
+        let mut into = self.find_path(&placement.tree, part.entry, part.exit);
+        let mut start = part.start;
+        let mut largest_sq = 0.0_f64;
+        for &Crossing { edge: [i, j], into: next } in &self.path {
+            let target = [hole.points[usize::from(i)], hole.points[usize::from(j)]];
+            let (s, distance_sq) = cross_nearest(segment, start, part.end, target);
+            self.portions.push(Portion { slot: hole.slots[usize::from(into)], end: s });
+            largest_sq = largest_sq.max(distance_sq);
+            start = s;
+            into = next;
+        }
+        self.portions.push(Portion { slot: hole.slots[usize::from(into)], end: part.end });
+        largest_sq
+    }
+
+    /// Puts the path between two ends into `self.path` and returns the triangle it starts in. An end at a ring vertex
+    /// is taken in the triangle around that vertex that makes the path shortest.
+    fn find_path(&mut self, tree: &DualTree, entry: End, exit: End) -> u8 {
+        let any_triangle = |end| match end {
+            End::In(triangle) => triangle,
+            End::At(corner) => tree.at_ring_vertex(corner),
+        };
+        let mut first = any_triangle(entry);
+        self.path.clear();
+        tree.path(first, any_triangle(exit), &mut self.path);
+        if let End::At(corner) = entry {
+            let n_turns = self.path.iter().take_while(|crossing| crossing.edge.contains(&corner)).count();
+            if n_turns > 0 {
+                first = self.path[n_turns - 1].into;
+                self.path.drain(..n_turns);
+            }
+        }
+        if let End::At(corner) = exit {
+            let n_turns =
+                self.path.iter().rev().take_while(|crossing| crossing.edge.contains(&corner)).count();
+            self.path.truncate(self.path.len() - n_turns);
+        }
+        first
+    }
+}
+
+/// Where the source edge, between `start` and `end`, comes nearest to `target`, as a part of the edge, and the squared
+/// distance there.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "any f32 between start and end will do, it is exact from then on"
+)]
+fn cross_nearest(segment: Segment, start: f32, end: f32, target: Segment) -> (f32, f64) {
+    let s = nearest_parameter(segment, target) as f32;
+    let s = if s.is_nan() { start } else { s.clamp(start, end) };
+    let direction = sub(segment[1], segment[0]);
+    let point = if s == 1.0 { segment[1] } else { add_scaled(segment[0], s.into(), direction) };
+    (s, point_segment_distance_sq(point, target))
+}
+
+/// Parameter on the line of `first`, unclamped at best effort, at which it is nearest to `second`.
+fn nearest_parameter([a, b]: Segment, [c, d]: Segment) -> f64 {
+    let (u, v, w) = (sub(b, a), sub(d, c), sub(a, c));
+    let (uu, uv, vv) = (length_sq(u), dot(u, v), length_sq(v));
+    let (uw, vw) = (dot(u, w), dot(v, w));
+    let determinant = uu * vv - uv * uv;
+    let s =
+        if determinant > 1e-12 * uu * vv { ((uv * vw - vv * uw) / determinant).clamp(0.0, 1.0) } else { 0.5 };
+    let t = (uv * s + vw) / vv;
+    if t < 0.0 {
+        -uw / uu
+    } else if t > 1.0 {
+        (uv - uw) / uu
+    } else {
+        s
+    }
+}
