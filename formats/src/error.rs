@@ -264,7 +264,7 @@ pub(crate) fn excerpt(bytes: &[u8]) -> String {
 }
 
 /// What a parser says, which may quote as much of the file as it likes: printable, and its two ends where it is long.
-fn shortened(error: &serde_json::Error) -> String {
+pub(crate) fn shortened(error: &impl fmt::Display) -> String {
     const END_CHARS: usize = 80;
     let message: String = error.to_string().chars().flat_map(printable).collect();
     let n_chars = message.chars().count();
@@ -273,6 +273,15 @@ fn shortened(error: &serde_json::Error) -> String {
     }
     let ends = message.chars().take(END_CHARS).chain("...".chars());
     ends.chain(message.chars().skip(n_chars - END_CHARS)).collect()
+}
+
+/// A name from a file as it can be shown in a message: quoted, escaped and at most 40 characters of it.
+pub(crate) fn quoted_name(name: &str) -> String {
+    const SHOWN_CHARS: usize = 40;
+    match name.char_indices().nth(SHOWN_CHARS) {
+        Some((end, _)) => format!("{:?}", [&name[..end], "..."].concat()),
+        None => format!("{name:?}"),
+    }
 }
 
 /// A name from a file as it can be shown in a message.
@@ -313,6 +322,8 @@ mod tests {
         assert!(!message.contains('\u{1b}'));
         assert_eq!(shown_name("KHR_\n\u{1b}[2J"), "KHR_\\n\\u{1b}[2J");
         assert_eq!(shown_name(&"x".repeat(1000)).len(), 43);
+        assert_eq!(quoted_name("a\n\u{1b}b"), "\"a\\n\\u{1b}b\"");
+        assert_eq!(quoted_name(&"\u{e4}".repeat(1000)).chars().count(), 45);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::MeshFormat;
+use crate::error::quoted_name;
 
 /// What happened while a mesh was read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -64,7 +65,7 @@ pub enum Warning {
         n_lines: usize,
     },
     /// Vertex data that cannot be an attribute, left out.
-    #[error("vertex attribute {name:?} is left out: {reason}")]
+    #[error("vertex attribute {} is left out: {reason}", quoted_name(.name))]
     AttributeDropped {
         /// Its name in the file.
         name: String,
@@ -72,7 +73,7 @@ pub enum Warning {
         reason: String,
     },
     /// Vertices for which the file does not give an attribute that others have got its neutral value.
-    #[error("attribute {name:?} is absent at {n_vertices} vertices and filled with its neutral value")]
+    #[error("attribute {} is absent at {n_vertices} vertices and filled with its neutral value", quoted_name(.name))]
     AttributeFilled {
         /// The attribute.
         name: String,
@@ -80,7 +81,7 @@ pub enum Warning {
         n_vertices: usize,
     },
     /// Data that belongs to faces, left out.
-    #[error("face data {name:?} is left out")]
+    #[error("face data {} is left out", quoted_name(.name))]
     FaceDataIgnored {
         /// Its name in the file.
         name: String,

@@ -35,8 +35,9 @@ pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
 /// When it is neither a volume that holds together nor an error of one line.
 pub(crate) fn read_volume(bytes: &[u8], format: VolumeFormat) {
     match read_volume_bytes(bytes, format) {
-        Ok((mesh, _)) => {
+        Ok((mesh, report)) => {
             mesh.check().unwrap();
+            assert!(report.warnings.iter().all(|warning| warning.to_string().len() < 400));
             assert!(!mesh.tetrahedra.is_empty() && mesh.rounding.is_finite());
             write_volume_to(&mut Vec::new(), &mesh, VolumeFormat::Vtu).unwrap();
         }

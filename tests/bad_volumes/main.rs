@@ -67,11 +67,15 @@ fn outcome(path: &Path) -> String {
         Ok(read) => read,
         Err(error) => {
             assert!(matches!(error, MeshError::InFile { .. }), "{error}");
-            assert!(!error.to_string().contains('\n'), "{error}");
+            let message = error.root().to_string();
+            assert!(!message.contains(char::is_control) && message.len() < 300, "{message}");
             return format!("refused: {}", variant(error.root()));
         }
     };
     mesh.check().unwrap();
+    for warning in report.warnings.iter().map(ToString::to_string) {
+        assert!(!warning.contains(char::is_control) && warning.len() < 300, "{warning}");
+    }
     let build = match build_volume(&mesh, &VolumeOptions::default(), &|_| Continue(())) {
         Ok(build) => build,
         Err(error @ BuildError::NoTetrahedra { .. }) => return format!("refused: {}", variant(&error)),

@@ -36,6 +36,12 @@ fn documents() -> Cases {
         ("xml-utf-16", TEXT.encode_utf16().flat_map(u16::to_le_bytes).collect()),
         ("xml-attribute-twice", edited(TEXT, "version=\"1.0\" byte", "version=\"1.0\" version=\"1.0\" byte")),
         ("xml-character-giant", edited(TEXT, "heat", "&#99999999999;")),
+        ("xml-end-tag-of-two-lines", edited(TEXT, "</Cells>", "<i/\nPiece>")),
+        ("xml-name-giant", edited(TEXT, "</Cells>", &format!("</{}>", "n".repeat(3000)))),
+        (
+            "type-giant",
+            edited(TEXT, "\"UnstructuredGrid\" version", &format!("\"{}\" version", "t".repeat(3000))),
+        ),
         ("xml-trailing-garbage", [TEXT, "more"].concat().into()),
         ("root-another", TEXT.replace("VTKFile", "vtkfile").into()),
         ("type-of-polygons", edited(TEXT, "\"UnstructuredGrid\" version", "\"PolyData\" version")),

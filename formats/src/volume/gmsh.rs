@@ -82,7 +82,7 @@ impl Reader<'_> {
         }
         self.is_version_4 = version >= 4.1;
         let is_known = (2.0..3.0).contains(&version) || (4.1..5.0).contains(&version);
-        if is_known { Ok(()) } else { unsupported(format!("Gmsh version {version}")) }
+        if is_known { Ok(()) } else { unsupported(format!("Gmsh version {version:?}")) }
     }
 
     fn name(&mut self) -> Result<(), MeshError> {

@@ -1,6 +1,7 @@
 //! What a volume reader had to decide, drop or cut: nothing that changes the mesh goes unsaid.
 
 use super::VolumeFormat;
+use crate::error::quoted_name;
 use serde::Serialize;
 
 /// What happened while a volume was read.
@@ -31,7 +32,7 @@ impl VolumeReport {
 #[non_exhaustive]
 pub enum VolumeWarning {
     /// Data of the file that belongs to cells, or to no vertex in particular, left out.
-    #[error("{kind} {name:?} is left out")]
+    #[error("{kind} {} is left out", quoted_name(.name))]
     DataIgnored {
         /// `cell data`, `field data` and the like.
         kind: &'static str,
@@ -39,7 +40,7 @@ pub enum VolumeWarning {
         name: String,
     },
     /// A field that has a value for every node of another number than the points, left out.
-    #[error("field {name:?} has {found} values for {expected} vertices and is left out")]
+    #[error("field {} has {found} values for {expected} vertices and is left out", quoted_name(.name))]
     FieldLength {
         /// Its name.
         name: String,
@@ -49,7 +50,7 @@ pub enum VolumeWarning {
         expected: u64,
     },
     /// 64-bit integers kept in another type: `i32` where all fit, `f64` otherwise.
-    #[error("field {name:?} of 64-bit integers is kept as {scalar}")]
+    #[error("field {} of 64-bit integers is kept as {scalar}", quoted_name(.name))]
     FieldNarrowed {
         /// Its name.
         name: String,
@@ -57,7 +58,7 @@ pub enum VolumeWarning {
         scalar: &'static str,
     },
     /// A second field of the same name got another one.
-    #[error("a second field {name:?} is kept as {new_name:?}")]
+    #[error("a second field {} is kept as {}", quoted_name(.name), quoted_name(.new_name))]
     FieldRenamed {
         /// The name both have in the file.
         name: String,

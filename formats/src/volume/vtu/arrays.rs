@@ -9,7 +9,7 @@ use flate2::read::ZlibDecoder;
 use roxmltree::Node;
 
 use crate::ScalarType;
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, Place, quoted_name};
 use crate::volume::scalars::{NumberType, Numbers, push_text};
 
 /// How the file as a whole encodes its arrays.
@@ -53,7 +53,7 @@ impl Encoding<'_> {
                 self.use_up(n_used)?;
                 Ok(numbers)
             }
-            other => Err(unsupported(format!("data format {other:?}"))),
+            other => Err(unsupported(format!("data format {}", quoted_name(other)))),
         }
     }
 
@@ -195,7 +195,7 @@ fn number_type(array: Node<'_, '_>) -> Result<NumberType, MeshError> {
         "UInt64" => NumberType::U64,
         "Float32" => kept(ScalarType::F32),
         "Float64" => kept(ScalarType::F64),
-        _ => return Err(unsupported(format!("data array of type {name:?}"))),
+        _ => return Err(unsupported(format!("data array of type {}", quoted_name(name)))),
     })
 }
 

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use roxmltree::{Document, Node};
 
 use super::arrays::{Encoding, is_base64, unsupported};
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, Place, quoted_name, shortened};
 use crate::volume::cells::Cells;
 use crate::volume::pending::{Fields, Points, finish};
 use crate::volume::scalars::Numbers;
@@ -28,12 +28,12 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeRe
     let document = Document::parse(xml).map_err(|error| MeshError::Unexpected {
         place,
         expected: "well-formed XML",
-        found: error.to_string(),
+        found: shortened(&error),
     })?;
     let root = document.root_element();
     let kind = root.attribute("type").unwrap_or("");
     if root.tag_name().name() != "VTKFile" || kind != "UnstructuredGrid" {
-        return Err(unsupported(format!("VTK file of type {kind:?}")));
+        return Err(unsupported(format!("VTK file of type {}", quoted_name(kind))));
     }
     let encoding = encoding(root, appended)?;
     let grid = child(root, "UnstructuredGrid")?;
@@ -65,17 +65,17 @@ fn encoding<'a>(root: Node<'_, '_>, appended: &'a [u8]) -> Result<Encoding<'a>, 
     let is_big_endian = match choice("byte_order", "LittleEndian").as_str() {
         "LittleEndian" => false,
         "BigEndian" => true,
-        other => return Err(unsupported(format!("byte order {other:?}"))),
+        other => return Err(unsupported(format!("byte order {}", quoted_name(other)))),
     };
     let header_bytes = match choice("header_type", "UInt32").as_str() {
         "UInt32" => 4,
         "UInt64" => 8,
-        other => return Err(unsupported(format!("header type {other:?}"))),
+        other => return Err(unsupported(format!("header type {}", quoted_name(other)))),
     };
     let is_compressed = match choice("compressor", "").as_str() {
         "" => false,
         "vtkZLibDataCompressor" => true,
-        other => return Err(unsupported(format!("compressor {other:?}"))),
+        other => return Err(unsupported(format!("compressor {}", quoted_name(other)))),
     };
     let data = root.children().find(|node| node.has_tag_name("AppendedData"));
     let is_appended_base64 = data.and_then(|node| node.attribute("encoding")) == Some("base64");
