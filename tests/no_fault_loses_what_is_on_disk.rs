@@ -5,8 +5,9 @@
 
 mod support;
 
-use nephrite::store::{Provenance, StoreOptions, WriteError, write_in, write_to};
-use nephrite::{BuildOptions, Lod, TriangleMesh};
+use nephrite::progressive_mesh::encode;
+use nephrite::store::{Provenance, StoreOptions, StoreReport, WriteError, write_in, write_to_with};
+use nephrite::{Build, BuildOptions, Lod, Method, TriangleMesh};
 use nephrite_formats::publish::{Disk, LEFTOVER_PREFIX, LEFTOVER_SUFFIX, Storage, publish_in};
 use nephrite_formats::{MeshError, MeshFormat, PublishError, read_mesh_bytes, write_mesh_to};
 use std::collections::BTreeMap;
@@ -114,17 +115,47 @@ fn assert_all_struck(n_struck: &BTreeMap<&'static str, usize>) {
 fn of_a_build() {
     let mesh = support::synthetic::grid(12);
     let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
-    let write = |disk: &Faulty, path: &Path| write_build(disk, path, &build);
-    let write_well = |path: &Path| {
-        write_build(&Disk, path, &build).unwrap();
-        Lod::open(path).unwrap().verify().unwrap();
-    };
-    assert_all_struck(&strike_every_operation(write, write_well));
+    check_build(&build, StoreOptions::default(), &[]);
 }
 
-fn write_build<S: Storage>(disk: &S, path: &Path, build: &nephrite::Build) -> Result<(), WriteError> {
-    let (provenance, options) = (Provenance::default(), StoreOptions::default());
-    write_in(disk, path, |file| write_to(file, &build.mesh, &build.history, &provenance, &options)).map(drop)
+#[test]
+fn of_a_build_in_compact_form() {
+    let mesh = support::synthetic::grid(5);
+    let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
+    check_build(&build, StoreOptions { is_compact: true, ..StoreOptions::default() }, &[]);
+}
+
+#[test]
+fn of_a_build_with_operations() {
+    let mesh = support::synthetic::grid(5);
+    let options = BuildOptions { method: Method::Progressive, ..BuildOptions::default() };
+    let build = nephrite::build(&mesh, &options, &|_| Continue(())).unwrap();
+    let operations = encode(&build).unwrap().bytes;
+    check_build(&build, StoreOptions::default(), &operations);
+}
+
+/// Writes a build on disks that fail in every way.
+fn check_build(build: &Build, options: StoreOptions, operations: &[u8]) {
+    fn write_build<S: Storage>(
+        disk: &S,
+        path: &Path,
+        fill: impl FnOnce(&mut S::File) -> Result<StoreReport, WriteError>,
+    ) -> Result<(), WriteError> {
+        write_in(disk, path, fill).map(drop)
+    }
+    let provenance = Provenance::default();
+    let (mesh, history) = (&build.mesh, &build.history);
+    let write_badly = |disk: &Faulty, path: &Path| {
+        write_build(disk, path, |file| write_to_with(file, mesh, history, &provenance, &options, operations))
+    };
+    let write_well = |path: &Path| {
+        write_build(&Disk, path, |file| {
+            write_to_with(file, mesh, history, &provenance, &options, operations)
+        })
+        .unwrap();
+        Lod::open(path).unwrap().verify().unwrap();
+    };
+    assert_all_struck(&strike_every_operation(write_badly, write_well));
 }
 
 /// An error of either kind.
