@@ -3,6 +3,7 @@
 //! The allocator of this test refuses what goes beyond a multiple of the input, and a refused allocation ends the process.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
+#![allow(clippy::print_stdout, reason = "a long run says how long")]
 
 mod samples;
 
@@ -130,6 +131,48 @@ fn one_line_of_many_megabytes() {
     let comments = "#\n".repeat(5_000_000);
     assert!(read_within(comments.as_bytes(), MeshFormat::Obj).is_err());
     assert!(read_within(format!("OFF\n3 1 0\n{comments}").as_bytes(), MeshFormat::Off).is_err());
+}
+
+/// Half a minute and 2 GB of memory for each file: `cargo test -p nephrite-formats --test memory_and_time_follow_the_input --
+/// --ignored --nocapture`. The last results are in fuzz/RESULTS.md.
+#[test]
+#[ignore = "reads eleven files of a gigabyte"]
+fn a_gigabyte_in_one_line() {
+    const GIGABYTE: usize = 1_000_000_000;
+    let _guard = alone();
+    let vtk = "# vtk DataFile Version 3.0\n";
+    let meshes = [
+        (MeshFormat::Obj, "v 0 0 0", " "),
+        (MeshFormat::Obj, "f 1/1/1", "1"),
+        (MeshFormat::Obj, "v 0 0 0\n# ", "x"),
+        (MeshFormat::Ply, "ply\ncomment ", "x"),
+        (MeshFormat::Off, "OFF\n", "x"),
+        (MeshFormat::Stl, "solid ", "x"),
+        (MeshFormat::Gltf, "{\"asset\": \"", "x"),
+    ]
+    .map(|(format, head, fill)| (format.to_string(), head, fill, Ok(format)));
+    let volumes = [
+        (VolumeFormat::Vtk, vtk, "x"),
+        (VolumeFormat::Vtu, "<VTKFile type=\"", "x"),
+        (VolumeFormat::Gmsh, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$", "x"),
+        (VolumeFormat::Medit, "MeshVersionFormatted 2\nDimension ", " "),
+    ]
+    .map(|(format, head, fill)| (format.to_string(), head, fill, Err(format)));
+    for (name, head, fill, format) in meshes.into_iter().chain(volumes) {
+        let mut bytes = head.as_bytes().to_vec();
+        bytes.resize(GIGABYTE, fill.as_bytes()[0]);
+        let start = Instant::now();
+        // What a reader copies at most: the text once, and once more as a string.
+        let capped = Capped::to(2 * GIGABYTE + BYTES_ALWAYS);
+        let is_refused = match format {
+            Ok(format) => read_mesh_bytes(&bytes, format).is_err(),
+            Err(format) => read_volume_bytes(&bytes, format).is_err(),
+        };
+        drop(capped);
+        let elapsed = start.elapsed();
+        println!("{name}, {head:?} and a gigabyte of {fill:?}: {elapsed:.1?}");
+        assert!(is_refused && elapsed < Duration::from_secs(60), "{name}: {elapsed:?}");
+    }
 }
 
 #[test]

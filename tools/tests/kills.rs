@@ -5,8 +5,11 @@
 
 mod support;
 
+use std::collections::BTreeSet;
 use std::collections::hash_map::RandomState;
+use std::ffi::OsString;
 use std::hash::BuildHasher;
+use std::path::Path;
 use std::process::Stdio;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -18,7 +21,7 @@ const N_KILLS: usize = 40;
 
 #[test]
 fn killed_builds_leave_the_old_file_or_the_new_one() {
-    let n_kills = std::env::var("NEPHRITE_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(N_KILLS);
+    let n_kills = n_kills(N_KILLS);
     let place = Workplace::new();
     place.done("generate sphere --triangles 3000 -o in.ply");
     let options = ["--levels 5", "--levels 50"];
@@ -58,4 +61,61 @@ fn killed_builds_leave_the_old_file_or_the_new_one() {
     place.done("build in.ply -o out.neph");
     assert_eq!(place.files(), ["in.ply", "out.neph"]);
     place.done("verify out.neph");
+}
+
+/// A database of parts is a folder of files, each whole; the next run makes what is missing.
+#[test]
+fn killed_databases_hold_whole_files_only() {
+    const PARTS: [&str; 5] = ["a", "b", "c", "d", "e"];
+    let n_kills = n_kills(N_KILLS / 4);
+    let place = Workplace::new();
+    for (i, part) in PARTS.into_iter().enumerate() {
+        place.done(&format!("generate sphere --triangles {} -o {part}.ply", 600 + 100 * i));
+    }
+    let parts: String = PARTS.iter().map(|part| format!(" {part}.ply")).collect();
+    let start = Instant::now();
+    place.done(&format!("build{parts} --output-dir whole"));
+    let duration_us = start.elapsed().as_micros() as u64;
+    let mut n_whole = 0;
+    for kill in 0..n_kills {
+        let line = format!("build{parts} --output-dir db");
+        let mut build = place
+            .command(line.split_whitespace())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        thread::sleep(Duration::from_micros(RandomState::new().hash_one(kill) % duration_us));
+        build.kill().expect("a process of our own");
+        build.wait().expect("it ends");
+        let there =
+            PARTS.map(|part| format!("{part}.neph")).map(|file| (place.path(format!("db/{file}")), file));
+        let there: Vec<_> = there.into_iter().filter(|(path, _)| path.exists()).collect();
+        for (_, file) in &there {
+            let same = place.read(&format!("db/{file}")) == place.read(&format!("whole/{file}"));
+            assert!(same, "kill {kill}: {file} is not whole");
+        }
+        // Once all parts are there a new database begins.
+        if there.len() == PARTS.len() {
+            n_whole += 1;
+            place.done(&line);
+            std::fs::remove_dir_all(place.path("db")).expect("a folder of our own");
+        }
+    }
+    println!("{n_kills} kills: {n_whole} databases were finished in spite of them");
+    place.done(&format!("build{parts} --output-dir db"));
+    for part in PARTS {
+        assert_eq!(place.read(&format!("db/{part}.neph")), place.read(&format!("whole/{part}.neph")));
+    }
+    assert_eq!(names(&place.path("db")), names(&place.path("whole")), "nothing is left beside them");
+}
+
+fn names(folder: &Path) -> BTreeSet<OsString> {
+    let entries = std::fs::read_dir(folder).expect("the folder is there");
+    entries.map(|entry| entry.expect("an entry").file_name()).collect()
+}
+
+/// Kills of a usual run, or as many as the environment asks for.
+fn n_kills(usual: usize) -> usize {
+    std::env::var("NEPHRITE_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(usual)
 }
