@@ -102,7 +102,8 @@ fn check_options(options: &VolumeOptions) -> Result<(), BuildError> {
         check("max error", "finite and above zero", error, error.is_finite() && error > 0.0)?;
     }
     check("feature angle", "from 0 to 180 degrees", angle, (0.0..=180.0).contains(&angle))?;
-    let FusionOptions { field_weight: weight, volume_loss: loss } = fusion;
+    let FusionOptions { field_weight: weight, tetrahedron_share: share, volume_loss: loss } = fusion;
     check("field weight", "finite and not negative", weight, weight.is_finite() && weight >= 0.0)?;
+    check("tetrahedron share", "from 0 to 1", share, (0.0..=1.0).contains(&share))?;
     check("volume loss", "from 0 to 1", loss, (0.0..=1.0).contains(&loss))
 }

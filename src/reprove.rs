@@ -2,10 +2,11 @@
 //!
 //! The builder states each level's error from a map that it carried along. Nothing of that is used here: the finest level
 //! of the file is the input, every level is a mesh, and the distance between the two is bounded in both directions by
-//! branch and bound ([`check_within`]). The two proofs share no code beyond the distance of a point to a triangle.
+//! branch and bound ([`check_within`]). The two proofs share no code beyond the distance of a point to a triangle. Of a volume
+//! the surface around it is taken, on which its errors are.
 
 use crate::measure::{MeasureError, Verdict, check_within};
-use crate::query::{Lod, QueryError};
+use crate::query::{Cut, Lod, QueryError};
 use nephrite_formats::TriangleMesh;
 
 /// Pieces after which the proof of a level is given up.
@@ -17,7 +18,13 @@ pub struct ErrorTable<'a> {
     lod: &'a Lod,
     input: TriangleMesh,
     last_certified: u32,
+    /// Added to every stated error: what rounding moves the vertices of a volume's boundary that stay in one plane or line. 0 for surfaces,
+    /// whose errors count it in.
+    slack: f64,
 }
+
+/// Rounding of a fusion point, in parts of the largest coordinate.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
 /// Why a level's error was not proven anew.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -77,13 +84,16 @@ impl<'a> ErrorTable<'a> {
     pub fn new(lod: &'a Lod) -> Result<Self, ReproveError> {
         let metadata = lod.metadata().map_err(|error| ReproveError::Metadata(error.to_string()))?;
         let found = metadata.provenance.bound;
-        if found != "certified" {
+        if found != "certified" && !(found == "boundary" && lod.n_corners() == 4) {
             return Err(ReproveError::NotCertified { found });
         }
         let least = metadata.provenance.certified_simplices.unwrap_or(0);
         let n_certified = lod.curve().take_while(|point| u64::from(point.triangles) >= least).count();
         let last_certified = u32::try_from(n_certified.saturating_sub(1)).unwrap_or(u32::MAX);
-        Ok(Self { lod, input: lod.at_level(0).to_mesh()?, last_certified })
+        let input = surface(lod, &lod.at_level(0))?;
+        let largest = input.positions.iter().flatten().fold(0.0_f32, |largest, x| largest.max(x.abs()));
+        let slack = if lod.n_corners() == 4 { ROUNDING * f64::from(largest) } else { 0.0 };
+        Ok(Self { lod, input, last_certified, slack })
     }
 
     /// The last level whose error the file calls certified.
@@ -109,11 +119,16 @@ impl<'a> ErrorTable<'a> {
         }
         let stated = cut.error();
         // The level is what the file says; only the input was rounded on its way there.
-        let mesh = TriangleMesh { rounding: 0.0, ..cut.to_mesh()? };
-        match check_within(&self.input, &mesh, stated, MAX_PIECES)? {
+        let mesh = TriangleMesh { rounding: 0.0, ..surface(self.lod, &cut)? };
+        match check_within(&self.input, &mesh, stated + self.slack, MAX_PIECES)? {
             Verdict::Within => Ok(()),
             Verdict::Beyond { distance, .. } => Err(ReproveError::Exceeded { level, stated, distance }),
             Verdict::Undecided { upper_bound } => Err(ReproveError::Undecided { level, stated, upper_bound }),
         }
     }
+}
+
+/// The mesh of a level; of a volume, its boundary.
+fn surface(lod: &Lod, cut: &Cut<'_>) -> Result<TriangleMesh, QueryError> {
+    if lod.n_corners() == 4 { cut.boundary() } else { cut.to_mesh() }
 }

@@ -112,6 +112,36 @@ fn every_text_gives_the_same_two_tetrahedra() {
 }
 
 #[test]
+fn pieces_of_a_vtu_file_become_one_volume() {
+    let whole = VTU_TEXT.replace("Int64", "Int32");
+    let start = whole.find("<Piece").unwrap();
+    let end = whole.find("</UnstructuredGrid>").unwrap();
+    let piece = whole[start..end].to_owned();
+    let with = |pieces: &[&str]| {
+        let text = format!("{}{}{}", &whole[..start], pieces.concat(), &whole[end..]);
+        read_volume_bytes(text.as_bytes(), VolumeFormat::Vtu)
+    };
+    let (mesh, report) = with(&[&piece, &piece.replace("1 2 3 4 5<", "6 7 8 9 10<")]).unwrap();
+    assert_eq!(mesh.tetrahedra, [[0, 1, 2, 3], [1, 2, 3, 4], [5, 6, 7, 8], [6, 7, 8, 9]]);
+    assert_eq!(mesh.positions[..5], mesh.positions[5..]);
+    let ids: Vec<f64> = mesh.attribute("id").unwrap().values().collect();
+    assert_eq!(ids, (1..=10).map(f64::from).collect::<Vec<_>>());
+    assert!(report.warnings.is_empty());
+    // A field that a piece lacks, has of another type or of another length is no field of the whole.
+    for other in
+        [("\"id\"", "\"name\""), ("Int32\" Name=\"id\"", "Float32\" Name=\"id\""), ("1 2 3 4 5<", "1 2 3 4<")]
+    {
+        let (mesh, report) = with(&[&piece, &piece.replace(other.0, other.1)]).unwrap();
+        assert!(mesh.attributes.is_empty() && !report.warnings.is_empty(), "{other:?}");
+    }
+    assert!(matches!(with(&[]), Err(MeshError::Missing { .. })));
+    // Indices count from the first point of their own piece, and stay inside it.
+    let beyond = with(&[&piece, &piece.replace("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5")]);
+    assert!(matches!(beyond, Err(MeshError::IndexOutOfRange { .. })), "{beyond:?}");
+    assert!(with(&[&piece.replace("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5"), &piece]).is_err());
+}
+
+#[test]
 fn two_files_of_tetgen_belong_together() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);

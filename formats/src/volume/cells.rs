@@ -73,6 +73,11 @@ impl Cells {
         Ok(())
     }
 
+    /// Adds the tetrahedra of later cells.
+    pub(super) fn append(&mut self, mut later: Self) {
+        self.tetrahedra.append(&mut later.tetrahedra);
+    }
+
     /// The tetrahedra, in the order of their cells.
     pub(super) fn into_tetrahedra(self) -> Vec<[u32; 4]> {
         self.tetrahedra

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{VolumeReport, gmsh, medit, plot3d, tetgen, vtk, vtu};
+use super::{VolumeReport, gmsh, medit, meshb, plot3d, tetgen, vtk, vtu};
 use crate::error::Place;
 use crate::publish::publish;
 use crate::{MeshError, TetrahedronMesh};
@@ -22,7 +22,7 @@ pub enum VolumeFormat {
     Vtk,
     /// Gmsh 2.2 and 4.1, text.
     Gmsh,
-    /// MEDIT, text.
+    /// MEDIT, text or binary.
     Medit,
     /// TetGen: a `.node` and an `.ele` file of one name.
     Tetgen,
@@ -40,7 +40,7 @@ impl VolumeFormat {
             Self::Vtu => &["vtu"],
             Self::Vtk => &["vtk"],
             Self::Gmsh => &["msh"],
-            Self::Medit => &["mesh"],
+            Self::Medit => &["mesh", "meshb"],
             Self::Tetgen => &["ele", "node"],
             Self::Plot3d => &["p3d", "x", "bin"],
         }
@@ -67,6 +67,9 @@ impl VolumeFormat {
         }
         if text.starts_with(b"<VTKFile") || (text.starts_with(b"<?xml") && extension.is_none()) {
             return Some(Self::Vtu);
+        }
+        if meshb::is_meshb(bytes) && matches!(extension, None | Some(Self::Medit)) {
+            return Some(Self::Medit);
         }
         extension
     }
@@ -128,6 +131,7 @@ pub fn read_volume_bytes(
         VolumeFormat::Vtu => vtu::read(bytes),
         VolumeFormat::Vtk => vtk::read(bytes),
         VolumeFormat::Gmsh => gmsh::read(bytes),
+        VolumeFormat::Medit if meshb::is_meshb(bytes) => meshb::read(bytes),
         VolumeFormat::Medit => medit::read(bytes),
         VolumeFormat::Plot3d => plot3d::read(bytes, &[]),
         VolumeFormat::Tetgen => {

@@ -5,6 +5,7 @@ mod coning;
 mod format;
 mod gmsh;
 mod medit;
+mod meshb;
 mod pending;
 mod plot3d;
 mod report;

@@ -17,8 +17,9 @@ pub(super) struct Accepted {
     pub cost: f64,
 }
 
-/// How much the squared error of the boundary counts beside the squared distances to planes.
-const ERROR_WEIGHT: f64 = 10.0;
+/// How much the squared error of the boundary counts beside the squared distances to planes. That error is a bound and adds up,
+/// which the other terms of a cost are not.
+const ERROR_WEIGHT: f64 = 1e4;
 
 impl State {
     /// The quadric error of a fusion at the best point. A lower bound of what it costs where the boundary takes part.

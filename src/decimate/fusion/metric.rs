@@ -6,7 +6,9 @@
 //!
 //! A field is linear in a tetrahedron, `f(x) = g x + d`. Carried by the vertices as well, the sum of `w (g x + d - f)^2` over
 //! the tetrahedra measures how far a value `f` at `x` departs from them, in the same unit when the field is scaled to
-//! lengths and `w` is the sum of the squared areas. Its least value over `f` is a quadric in `x` alone, which is added to the
+//! lengths and `w` is a sum of squared areas. It is the mean one of all tetrahedra, not the own one: where a simulation has much to
+//! tell its cells are small, and with their own areas all that they resolve would be fused first. The least value over `f` is a
+//! quadric in `x` alone, which is added to the
 //! planes': the point that is best for the shape and all fields solves one system of three equations.
 //!
 //! References: P. Chopra, J. Meyer: "Topology sensitive volume mesh simplification with planar quadric error metrics" (IASTED VIIP,
@@ -57,6 +59,8 @@ pub(super) struct Metric {
     stride: usize,
     n_fields: usize,
     numbers: Vec<f64>,
+    /// `w` of every tetrahedron that has a volume.
+    field_weight: f64,
     /// Subtracted from every position, against cancellation.
     centre: Vector,
 }
@@ -65,7 +69,10 @@ impl Metric {
     /// The metric of a mesh. `fields` has `n_fields` values per vertex, scaled to lengths. O(n).
     pub(super) fn new(mesh: &Tetrahedra, centre: Vector, n_fields: usize, fields: &[f64]) -> Self {
         let stride = if n_fields == 0 { 10 } else { 11 + 4 * n_fields };
-        let mut metric = Self { stride, n_fields, numbers: vec![0.0; stride * mesh.n_vertices()], centre };
+        let numbers = vec![0.0; stride * mesh.n_vertices()];
+        let squared_areas: f64 = mesh.iter().map(|(_, corners)| squared_areas(mesh, corners)).sum();
+        let field_weight = squared_areas / mesh.n_alive().max(1) as f64;
+        let mut metric = Self { stride, n_fields, numbers, field_weight, centre };
         for (slot, corners) in mesh.iter() {
             metric.add_tetrahedron(mesh, slot, corners, fields);
         }
@@ -81,17 +88,15 @@ impl Metric {
         let bits = mesh.boundary_bits(slot);
         let mut planes = [Quadric::default(); 4];
         let mut sum = Quadric::default();
-        let mut squared_areas = 0.0;
         for (i, plane) in planes.iter_mut().enumerate() {
             let weight = if bits >> i & 1 == 1 { 2.0 * BOUNDARY_WEIGHT } else { 1.0 };
             *plane = Quadric::plane(normals[i], -dot(normals[i], points[FACES[i][0]]), 0.25 * weight);
             sum.add(plane);
-            squared_areas += 0.25 * dot(normals[i], normals[i]);
         }
         // Normals point outwards; the one opposite a corner is -6V times the gradient of its coordinate.
         let six_volumes = -dot(normals[0], sub(points[0], points[1]));
         let gradients = normals.map(|normal| normal.map(|x| -x / six_volumes));
-        let weight = if six_volumes.abs() > 0.0 { squared_areas } else { 0.0 };
+        let weight = if six_volumes.abs() > 0.0 { self.field_weight } else { 0.0 };
         for (i, &v) in corners.iter().enumerate() {
             let numbers = &mut self.numbers[v as usize * self.stride..][..self.stride];
             for (number, (all, own)) in numbers.iter_mut().zip(sum.numbers().zip(planes[i].numbers())) {
@@ -185,4 +190,14 @@ impl Quadric {
         let [xx, xy, xz, yy, yz, zz, x, y, z, c, _] = *numbers;
         Self { a: [xx, xy, xz, yy, yz, zz], b: [x, y, z], c }
     }
+}
+
+/// Sum of the squared areas of a tetrahedron's faces.
+fn squared_areas(mesh: &Tetrahedra, corners: [u32; 4]) -> f64 {
+    let points = corners.map(|v| mesh.position(v));
+    let squared = FACES.map(|[i, j, k]| {
+        let normal = cross(sub(points[j], points[i]), sub(points[k], points[i]));
+        0.25 * dot(normal, normal)
+    });
+    squared.into_iter().sum()
 }

@@ -32,7 +32,7 @@ pub(crate) fn run(
     let mut state = State::new(mesh, options, cos_feature_angle, max_error);
     let max_error = state.max_error;
     state.max_error = max_error.min(state.fine_error);
-    fuse_tetrahedra(&mut state, go_on)?;
+    fuse_tetrahedra(&mut state, options.tetrahedron_share, go_on)?;
     state.max_error = max_error;
     let by_tetrahedra = [state.n_fusions, state.mesh.n_alive()];
     fuse_edges(&mut state, go_on)?;
@@ -50,7 +50,8 @@ struct Candidate {
     refused: u32,
 }
 
-fn fuse_tetrahedra(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
+/// Fuses tetrahedra that cost no more than the cheapest `share` of them did at the start.
+fn fuse_tetrahedra(state: &mut State, share: f64, go_on: GoOn<'_>) -> Result<(), Stopped> {
     #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
     let n_slots = state.mesh.n_slots() as u32;
     let mut candidates = vec![Candidate::default(); n_slots as usize];
@@ -61,9 +62,12 @@ fn fuse_tetrahedra(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
         Some((slot, if is_right { state.cost(&Prey::tetrahedron(corners)) } else { 0.0 }))
     };
     let costs: Vec<(u32, f64)> = (0..n_slots).into_par_iter().filter_map(cost).collect();
+    let limit = quantile(&costs, share);
     let mut queue = Queue::new(costs.into_iter());
     let mut luck = Luck::default();
-    while let Some(slot) = queue.pop() {
+    while !queue.is_first(u32::MAX, limit)
+        && let Some(slot) = queue.pop()
+    {
         let Some(corners) = state.mesh.get(slot) else { continue };
         let prey = Prey::tetrahedron(corners);
         let candidate = &mut candidates[slot as usize];
@@ -87,6 +91,20 @@ fn fuse_tetrahedra(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
         observe(state, go_on)?;
     }
     Ok(())
+}
+
+/// The cost that a share of the candidates does not exceed: none for 0, no limit for 1.
+fn quantile(costs: &[(u32, f64)], share: f64) -> f64 {
+    if share >= 1.0 {
+        return f64::INFINITY;
+    }
+    let mut costs: Vec<f64> = costs.iter().map(|&(_, cost)| cost).collect();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a length")]
+    let n_within = (share * costs.len() as f64) as usize;
+    match n_within.checked_sub(1) {
+        None => -1.0,
+        Some(last) => *costs.select_nth_unstable_by(last, f64::total_cmp).1,
+    }
 }
 
 /// How often tetrahedra could be fused lately. Where nearly none can, edges take away more for the same time.

@@ -26,6 +26,10 @@ pub(super) struct FusionArguments {
     #[arg(long, value_name = "W", default_value_t = FusionOptions::default().field_weight, value_parser = not_negative)]
     field_weight: f64,
 
+    /// The cheapest part of the tetrahedra that are fused whole before edges are; 1 as in the paper
+    #[arg(long, value_name = "PART", default_value_t = FusionOptions::default().tetrahedron_share, value_parser = part)]
+    tetrahedron_share: f64,
+
     /// Largest change of the volume, as a part of it
     #[arg(long, value_name = "PART", default_value_t = FusionOptions::default().volume_loss, value_parser = part)]
     volume_loss: f64,
@@ -53,11 +57,11 @@ pub(super) struct Request<'a> {
 impl Request<'_> {
     fn options(&self, bounding_diagonal: f64) -> VolumeOptions {
         let usual = VolumeOptions::default();
-        let FusionArguments { field_weight, volume_loss, .. } = *self.fusion;
+        let FusionArguments { field_weight, tetrahedron_share, volume_loss, .. } = *self.fusion;
         VolumeOptions {
             max_error: self.max_error.map(|length| length.in_mesh_units(bounding_diagonal)),
             feature_angle_degrees: self.feature_angle.unwrap_or(usual.feature_angle_degrees),
-            fusion: FusionOptions { field_weight, volume_loss },
+            fusion: FusionOptions { field_weight, tetrahedron_share, volume_loss },
         }
     }
 

@@ -12,7 +12,8 @@ use crate::volume::scalars::Numbers;
 use crate::volume::vtk::kind_of;
 use crate::{TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
 
-/// Reads a VTU file of one piece.
+/// Reads a VTU file. Of several pieces the points are numbered on, and a field is taken where every piece has it with as many components
+/// of one type.
 ///
 /// # Errors
 ///
@@ -37,12 +38,23 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeRe
     }
     let encoding = encoding(root, appended)?;
     let grid = child(root, "UnstructuredGrid")?;
-    let mut pieces = grid.children().filter(|node| node.has_tag_name("Piece"));
-    let piece = pieces.next().ok_or(MeshError::Missing { place: Place::File, what: "piece" })?;
-    if pieces.next().is_some() {
-        return Err(unsupported("more than one piece".to_owned()));
+    let mut report = VolumeReport::new(VolumeFormat::Vtu);
+    let mut whole: Option<Piece> = None;
+    for node in grid.children().filter(|node| node.has_tag_name("Piece")) {
+        let n_before = whole.as_ref().map_or(0, |whole| whole.points.len());
+        let piece = read_piece(node, &encoding, n_before, &mut report)?;
+        whole = Some(match whole {
+            None => piece,
+            Some(whole) => whole.join(piece, &mut report)?,
+        });
     }
-    read_piece(piece, &encoding)
+    let Piece { points, is_text, cells, fields } =
+        whole.ok_or(MeshError::Missing { place: Place::File, what: "piece" })?;
+    let mut kept = Fields::default();
+    for Field { name, n_components, numbers } in fields {
+        kept.push(&name, n_components, numbers, points.len() / 3, &mut report);
+    }
+    finish(Points::new(&points, is_text), cells, kept, report)
 }
 
 /// The XML without the appended data, closed where it was cut, and the data.
@@ -85,29 +97,87 @@ fn encoding<'a>(root: Node<'_, '_>, appended: &'a [u8]) -> Result<Encoding<'a>, 
     Ok(Encoding { is_big_endian, header_bytes, is_compressed, appended, is_appended_base64, n_unused })
 }
 
+/// A piece of the grid, or all up to one.
+struct Piece {
+    /// Coordinates, three a point.
+    points: Numbers,
+    is_text: bool,
+    cells: Cells,
+    fields: Vec<Field>,
+}
+
+/// Values at the points of a piece.
+struct Field {
+    name: String,
+    n_components: u32,
+    numbers: Numbers,
+}
+
+impl Piece {
+    /// Adds the next piece, whose cells count their points on from this one's already.
+    fn join(mut self, next: Self, report: &mut VolumeReport) -> Result<Self, MeshError> {
+        if self.points.number != next.points.number {
+            return Err(unsupported("pieces with points of different types".to_owned()));
+        }
+        self.points.bytes.extend_from_slice(&next.points.bytes);
+        self.is_text |= next.is_text;
+        self.cells.append(next.cells);
+        let fits = |field: &Field, n_numbers: usize| {
+            field.numbers.len() * 3 == n_numbers * field.n_components as usize
+        };
+        let n_before = self.points.len() - next.points.len();
+        let (mut others, unfit): (Vec<Field>, Vec<Field>) =
+            next.fields.into_iter().partition(|field| fits(field, next.points.len()));
+        let mut leave_out = |name| {
+            report.warnings.push(VolumeWarning::DataIgnored { kind: "point data of some pieces", name });
+        };
+        self.fields.retain_mut(|field| {
+            let fits_before = fits(field, n_before);
+            let Field { name, n_components, numbers } = field;
+            let is_same = |other: &Field| {
+                (&other.name, other.n_components, other.numbers.number)
+                    == (name, *n_components, numbers.number)
+            };
+            match others.iter().position(is_same).filter(|_| fits_before) {
+                Some(at) => numbers.bytes.extend(others.remove(at).numbers.bytes),
+                None => {
+                    leave_out(std::mem::take(name));
+                    return false;
+                }
+            }
+            true
+        });
+        others.into_iter().chain(unfit).for_each(|field| leave_out(field.name));
+        Ok(self)
+    }
+}
+
+/// Reads a piece before whose points there are those of others, three numbers each.
 fn read_piece(
     piece: Node<'_, '_>,
     encoding: &Encoding<'_>,
-) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
-    let mut report = VolumeReport::new(VolumeFormat::Vtu);
+    n_numbers_before: usize,
+    report: &mut VolumeReport,
+) -> Result<Piece, MeshError> {
     let coordinates = arrays(child(piece, "Points")?).next();
     let coordinates =
         coordinates.ok_or(MeshError::Missing { place: Place::Part("Points"), what: "array" })?;
     let is_text = coordinates.attribute("format") == Some("ascii");
-    let points = Points::new(&encoding.numbers(coordinates)?, is_text);
-    check_count(piece, "NumberOfPoints", points.len())?;
-    let cells = read_cells(piece, encoding, points.len(), &mut report)?;
-    let mut fields = Fields::default();
+    let mut points = encoding.numbers(coordinates)?;
+    let n_points = points.len() / 3;
+    points.bytes.truncate(3 * n_points * points.number.size_bytes());
+    check_count(piece, "NumberOfPoints", n_points)?;
+    let cells = read_cells(piece, encoding, [n_numbers_before / 3, n_points], report)?;
+    let mut fields = Vec::new();
     if let Ok(data) = child(piece, "PointData") {
         for array in arrays(data) {
-            let name = array.attribute("Name").unwrap_or("");
+            let name = array.attribute("Name").unwrap_or("").to_owned();
             let n_components = array.attribute("NumberOfComponents").map_or(Ok(1), str::parse);
             match encoding.numbers(array) {
                 Ok(numbers) => {
-                    fields.push(name, n_components.unwrap_or(0), numbers, points.len(), &mut report);
+                    fields.push(Field { name, n_components: n_components.unwrap_or(0), numbers });
                 }
                 Err(MeshError::Unsupported { .. }) => {
-                    let name = name.to_owned();
                     report.warnings.push(VolumeWarning::DataIgnored { kind: "point data", name });
                 }
                 Err(error) => return Err(error),
@@ -120,13 +190,14 @@ fn read_piece(
             report.warnings.push(VolumeWarning::DataIgnored { kind, name });
         }
     }
-    finish(points, cells, fields, report)
+    Ok(Piece { points, is_text, cells, fields })
 }
 
+/// The cells of a piece of `n_points` points behind `n_before` others.
 fn read_cells(
     piece: Node<'_, '_>,
     encoding: &Encoding<'_>,
-    n_points: usize,
+    [n_before, n_points]: [usize; 2],
     report: &mut VolumeReport,
 ) -> Result<Cells, MeshError> {
     let node = child(piece, "Cells")?;
@@ -168,9 +239,11 @@ fn read_cells(
                 index: index.unwrap_or(i64::MAX),
                 count,
             };
-            nodes.push(index.and_then(|index| u32::try_from(index).ok()).ok_or_else(out_of_range)?);
+            let own = index.and_then(|index| usize::try_from(index).ok()).filter(|&index| index < n_points);
+            let index = own.and_then(|index| u32::try_from(n_before + index).ok());
+            nodes.push(index.ok_or_else(out_of_range)?);
         }
-        cells.push(kind, &nodes, n_points, place, report)?;
+        cells.push(kind, &nodes, n_before + n_points, place, report)?;
     }
     Ok(cells)
 }
