@@ -1,42 +1,28 @@
 //! Numbering along a curve: what is near in space comes to be near in memory.
 
-use super::Repaired;
-use crate::geometry::morton::Grid;
-use nephrite_formats::TriangleMesh;
-use rayon::prelude::*;
+use super::{Numbering, Repaired};
 
 /// Renumbers vertices along a Morton curve, and triangles by their least vertex. The mesh is the same: a decimator that walks
 /// over it misses the cache less. O(n log n).
-pub fn along_a_curve(Repaired { mesh, points, looks, report }: Repaired) -> Repaired {
-    let grid = Grid::around(&mesh.positions);
-    let mut order: Vec<(u64, u32)> =
-        (0..).zip(&mesh.positions).map(|(v, &position)| (grid.morton(position), v)).collect();
+pub fn along_a_curve(Repaired { mut mesh, points, looks, report }: Repaired) -> Repaired {
     // Vertices of one point keep their order: its first one stays the first.
-    order.par_sort_unstable();
-    let order: Vec<u32> = order.into_iter().map(|(_, v)| v).collect();
-    let mut number = vec![0; order.len()];
-    for (new, &old) in (0..).zip(&order) {
-        number[old as usize] = new;
+    let numbering = Numbering::along_curve(&mesh.positions);
+    numbering.sort_triangles(&mut mesh.triangles);
+    for vertex in mesh.triangles.as_flattened_mut() {
+        *vertex = numbering.place(*vertex);
     }
-    let renumber = |of: Vec<u32>| order.iter().map(|&old| number[of[old as usize] as usize]).collect();
-    let mut triangles = mesh.triangles;
-    for triangle in &mut triangles {
-        *triangle = triangle.map(|v| number[v as usize]);
-    }
-    triangles.par_sort_by_key(|triangle| triangle.iter().copied().min());
-    let mut attributes = mesh.attributes;
-    for attribute in &mut attributes {
+    mesh.positions = numbering.arrange(&mesh.positions);
+    for attribute in &mut mesh.attributes {
         let stride = attribute.stride_bytes();
-        let values = |&old: &u32| &attribute.bytes[old as usize * stride..][..stride];
-        attribute.bytes = order.iter().flat_map(values).copied().collect();
+        let value = |&vertex: &u32| &attribute.bytes[vertex as usize * stride..][..stride];
+        attribute.bytes = numbering.vertices().iter().flat_map(value).copied().collect();
     }
-    let positions = order.iter().map(|&old| mesh.positions[old as usize]).collect();
-    Repaired {
-        mesh: TriangleMesh { positions, triangles, attributes, ..mesh },
-        points: points.map(renumber),
-        looks: looks.map(renumber),
-        report,
-    }
+    let renumber = |of: Vec<u32>| {
+        let mut of = numbering.arrange(&of);
+        of.iter_mut().for_each(|vertex| *vertex = numbering.place(*vertex));
+        of
+    };
+    Repaired { points: points.map(renumber), looks: looks.map(renumber), mesh, report }
 }
 
 #[cfg(test)]
@@ -44,7 +30,7 @@ mod tests {
     use super::*;
     use crate::generate;
     use crate::mesh::repair;
-    use nephrite_formats::{Attribute, ScalarType};
+    use nephrite_formats::{Attribute, ScalarType, TriangleMesh};
 
     /// Triangles as the positions of their corners, in any order.
     fn shape(mesh: &TriangleMesh) -> Vec<[[u32; 3]; 3]> {

@@ -44,6 +44,11 @@ impl Numbering {
     }
 
     /// Vertex at each place.
+    pub fn vertices(&self) -> &[u32] {
+        &self.vertices
+    }
+
+    /// Vertex at each place.
     pub fn into_vertices(self) -> Vec<u32> {
         self.vertices
     }
