@@ -5,7 +5,6 @@
 
 pub mod bound;
 mod build;
-mod build_volume;
 pub mod decimate;
 pub mod generate;
 pub mod geometry;
@@ -21,9 +20,9 @@ pub mod vertex_cache;
 pub mod volume;
 
 pub use build::{
-    Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, bounding_diagonal, build,
+    Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, VolumeBuild, VolumeOptions,
+    bounding_diagonal, build, build_volume,
 };
-pub use build_volume::{VolumeBuild, VolumeOptions, build_volume};
 pub use history::History;
 pub use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh, TriangleMesh};
 pub use query::{Cut, Lod};

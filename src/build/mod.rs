@@ -1,109 +1,31 @@
 //! From a mesh to the history of its simplification.
 
+mod error;
+mod options;
+mod progress;
+mod volume;
+
+pub use error::BuildError;
+pub use options::{Bound, BuildOptions, Method};
+pub use progress::{Observer, Phase, Progress};
+pub use volume::{VolumeBuild, VolumeOptions, build_volume};
+
 use crate::bound::GlobalError;
 use crate::bound::certified::Certified;
 use crate::bound::estimate::{Estimate, Kind};
+use crate::decimate::jade::Placement;
 use crate::decimate::jade::decimation::{Decimation, Workers};
 use crate::decimate::jade::placement::Moves;
 use crate::decimate::jade::rounds::run;
 use crate::decimate::jade::thresholds::Thresholds;
-use crate::decimate::jade::{JadeOptions, Placement};
 use crate::decimate::progressive::complex::Complex;
 use crate::decimate::progressive::wedges::Wedges;
-use crate::decimate::progressive::{self, Passage, ProgressiveOptions};
+use crate::decimate::progressive::{self, Passage};
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
-use crate::mesh::{
-    Numbering, RepairReport, Repaired, Seams, Surface, TooMany, along_a_curve, check_counts, repair,
-};
+use crate::mesh::{Numbering, RepairReport, Repaired, Seams, Surface, along_a_curve, check_counts, repair};
 use nephrite_formats::TriangleMesh;
-use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
-
-/// Which decimator runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// Vertex removal under a bound on the global error.
-    #[default]
-    Jade,
-    /// Fusion of tetrahedra; of volumes only, see [`build_volume`](crate::build_volume()).
-    Fusion,
-    /// Edge collapses and vertex splits that change the topology where they must, down to no triangle.
-    Progressive,
-}
-
-/// What the error of a level means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Bound {
-    /// A proven bound on the two-sided Hausdorff distance to the input.
-    #[default]
-    Certified,
-    /// The paper's estimate e_g3, the larger of the other two.
-    Joint,
-    /// The paper's estimate e_g2, from the removed vertices.
-    Removed,
-    /// The paper's estimate e_g1, accumulated local errors.
-    Accumulated,
-}
-
-/// How to build.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BuildOptions {
-    /// The decimator.
-    pub method: Method,
-    /// What its errors mean.
-    pub bound: Bound,
-    /// Largest error of any level, in mesh units; `None` simplifies as far as it goes.
-    pub max_error: Option<f64>,
-    /// Edges at which the normals turn by more than this, in degrees, are feature edges.
-    pub feature_angle_degrees: f64,
-    /// Constants of JADE.
-    pub jade: JadeOptions,
-    /// How far the progressive decimator goes.
-    pub progressive: ProgressiveOptions,
-}
-
-impl Default for BuildOptions {
-    fn default() -> Self {
-        Self {
-            method: Method::default(),
-            bound: Bound::default(),
-            max_error: None,
-            feature_angle_degrees: 60.0,
-            jade: JadeOptions::default(),
-            progressive: ProgressiveOptions::default(),
-        }
-    }
-}
-
-/// How far a build has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// What is being done.
-    pub phase: Phase,
-    /// Triangles alive now.
-    pub n_triangles: usize,
-    /// Triangles of the input.
-    pub n_triangles_in: usize,
-    /// Error of the current mesh, in mesh units.
-    pub error: f64,
-    /// Error at which the build ends, if one was asked for.
-    pub max_error: Option<f64>,
-}
-
-/// Parts of a build.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// Welding and dropping what is no surface.
-    Repair,
-    /// Removing vertices.
-    Decimate,
-}
-
-/// Told of progress now and then, from the building thread; may stop the build.
-pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
+use options::check_options;
 
 /// What a build leaves.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,87 +49,6 @@ impl Build {
         let lifetimes = self.history.birth.iter().zip(&self.history.death);
         Some(lifetimes.filter(|&(&birth, &death)| birth <= last && last < death).count())
     }
-}
-
-/// Why a build failed.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BuildError {
-    /// No triangle is left after repair.
-    #[error("no triangle with three distinct corners among the {n_triangles} of the mesh")]
-    NoTriangles {
-        /// Triangles before repair.
-        n_triangles: usize,
-    },
-    /// No tetrahedron is left after repair.
-    #[error("no tetrahedron with four distinct corners among the {n_tetrahedra} of the mesh")]
-    NoTetrahedra {
-        /// Tetrahedra before repair.
-        n_tetrahedra: usize,
-    },
-    /// A volume contradicts itself: an index without a vertex, a field of the wrong length.
-    #[error("the mesh contradicts itself: found {found} where {expected} would be right or the limit")]
-    Inconsistent {
-        /// Index or length.
-        found: u64,
-        /// Length or limit that would be right.
-        expected: u64,
-    },
-    /// A coordinate is not a number, or not finite.
-    #[error("vertex {vertex} has a coordinate that is not finite")]
-    NotFinite {
-        /// Index of the vertex.
-        vertex: usize,
-    },
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {found}, the mesh has {n_vertices}")]
-    IndexOutOfRange {
-        /// Index of the triangle.
-        triangle: usize,
-        /// The index it holds.
-        found: u32,
-        /// Vertices there are.
-        n_vertices: usize,
-    },
-    /// More vertices or simplices than ids of 32 bits have room for, see [`mesh::MAX_SIMPLICES`](crate::mesh::MAX_SIMPLICES).
-    #[error("{found} {what}, there can be at most {limit}")]
-    TooLarge {
-        /// What is counted, in the plural.
-        what: &'static str,
-        /// How many there are.
-        found: usize,
-        /// How many there may be.
-        limit: usize,
-    },
-    /// Fusion was asked for of a surface.
-    #[error("a surface has no tetrahedra to fuse")]
-    NotAVolume,
-    /// An option has no meaning.
-    #[error("{option} must be {expected}, found {found}")]
-    Option {
-        /// Its name.
-        option: &'static str,
-        /// What it must be.
-        expected: &'static str,
-        /// What it is.
-        found: f64,
-    },
-    /// The decimator cannot state what was asked for.
-    #[error("the {method} decimator states {expected}, not a {found} error")]
-    BoundOfMethod {
-        /// The decimator.
-        method: &'static str,
-        /// What it can state.
-        expected: &'static str,
-        /// What was asked for.
-        found: &'static str,
-    },
-    /// Vertices were to move under something else than the proof that follows them.
-    #[error("vertices move only under the certified bound of the jade decimator")]
-    PlacementOfBound,
-    /// The observer asked to stop.
-    #[error("interrupted")]
-    Interrupted,
 }
 
 /// Repairs `mesh` and simplifies it as the options say, on the current rayon pool.
@@ -375,12 +216,6 @@ pub fn bounding_diagonal(mesh: &TriangleMesh) -> f64 {
     length(sub(high, low))
 }
 
-impl From<TooMany> for BuildError {
-    fn from((what, found, limit): TooMany) -> Self {
-        Self::TooLarge { what, found, limit }
-    }
-}
-
 fn check_mesh(mesh: &TriangleMesh) -> Result<(), BuildError> {
     check_counts(mesh.positions.len(), mesh.triangles.len())?;
     let is_finite = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
@@ -393,35 +228,4 @@ fn check_mesh(mesh: &TriangleMesh) -> Result<(), BuildError> {
         Some(at) => Err(BuildError::IndexOutOfRange { triangle: at / 3, found: flat[at], n_vertices }),
         None => Ok(()),
     }
-}
-
-fn check_options(options: &BuildOptions) -> Result<(), BuildError> {
-    let check = |option, expected, found: f64, is_good: bool| {
-        if is_good { Ok(()) } else { Err(BuildError::Option { option, expected, found }) }
-    };
-    let BuildOptions {
-        max_error,
-        feature_angle_degrees: angle,
-        jade: JadeOptions { k, c1, c2, aspect_loss, placement },
-        progressive: ProgressiveOptions { reduction, .. },
-        ..
-    } = *options;
-    if let (Method::Progressive, Bound::Joint | Bound::Removed) = (options.method, options.bound) {
-        let found = if options.bound == Bound::Joint { "joint" } else { "removed" };
-        let expected = "a certified or an accumulated error";
-        return Err(BuildError::BoundOfMethod { method: "progressive", expected, found });
-    }
-    if placement == Placement::Best && (options.method, options.bound) != (Method::Jade, Bound::Certified) {
-        return Err(BuildError::PlacementOfBound);
-    }
-    let reduction = reduction.unwrap_or(1.0);
-    check("reduction", "from 0 to 1", reduction, (0.0..=1.0).contains(&reduction))?;
-    if let Some(error) = max_error {
-        check("max error", "finite and above zero", error, error.is_finite() && error > 0.0)?;
-    }
-    check("feature angle", "from 0 to 180 degrees", angle, (0.0..=180.0).contains(&angle))?;
-    check("k", "finite and at least 1", k, k.is_finite() && k >= 1.0)?;
-    check("c1", "above 1, at most 16", c1, c1 > 1.0 && c1 <= 16.0)?;
-    check("c2", "from 1 to 16", c2, (1.0..=16.0).contains(&c2))?;
-    check("aspect loss", "from 0 to 1", aspect_loss, (0.0..=1.0).contains(&aspect_loss))
 }
