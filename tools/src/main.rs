@@ -21,6 +21,7 @@ mod report;
 mod serve;
 mod stopwatch;
 mod threads;
+mod words;
 
 use std::process::ExitCode;
 

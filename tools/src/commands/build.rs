@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use clap::{Args, ValueEnum};
-use nephrite::decimate::jade::{JadeOptions, Placement};
+use clap::Args;
+use nephrite::decimate::jade::JadeOptions;
 use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::progressive_mesh::encode;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
-use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh};
+use nephrite::{Build, BuildOptions, TriangleMesh};
 use nephrite_formats::ReadReport;
 use serde_json::{Value, json};
 
@@ -19,6 +19,7 @@ use crate::length::{Length, LengthError};
 use crate::progress::BuildBar;
 use crate::report::Report;
 use crate::threads::Threads;
+use crate::words::{BoundName, MethodName, PlacementName};
 use crate::{figures, files, interrupt};
 
 /// Turn a mesh into a file that holds every level of detail of it.
@@ -129,69 +130,6 @@ struct ProgressiveArguments {
     /// Store the operations as well, from which the mesh can be built up one by one while they arrive
     #[arg(long)]
     operations: bool,
-}
-
-/// The decimators, as they are typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodName {
-    /// Vertex removal with retriangulation under a global error bound
-    Jade,
-    /// Fusion of tetrahedra, for volumes
-    Fusion,
-    /// Edge collapses and vertex splits that change the topology where they must: any reduction, down to no triangle
-    Progressive,
-}
-
-/// The bounds, as they are typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum BoundName {
-    /// A proof: the two-sided Hausdorff distance to the input is at most the error
-    Certified,
-    /// The JADE paper's estimate: the larger of the two below
-    Joint,
-    /// The paper's estimate from the removed vertices and their nearest triangles
-    Removed,
-    /// The paper's estimate from the errors of all removals at a place, added up
-    Accumulated,
-}
-
-/// The placements, as they are typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PlacementName {
-    /// Where the input has them
-    Original,
-    /// Where the error is least: about an eighth fewer triangles for an error, in a file about twice as long
-    Best,
-}
-
-impl From<PlacementName> for Placement {
-    fn from(name: PlacementName) -> Self {
-        match name {
-            PlacementName::Original => Self::Original,
-            PlacementName::Best => Self::Best,
-        }
-    }
-}
-
-impl From<MethodName> for Method {
-    fn from(name: MethodName) -> Self {
-        match name {
-            MethodName::Jade => Self::Jade,
-            MethodName::Fusion => Self::Fusion,
-            MethodName::Progressive => Self::Progressive,
-        }
-    }
-}
-
-impl From<BoundName> for Bound {
-    fn from(name: BoundName) -> Self {
-        match name {
-            BoundName::Certified => Self::Certified,
-            BoundName::Joint => Self::Joint,
-            BoundName::Removed => Self::Removed,
-            BoundName::Accumulated => Self::Accumulated,
-        }
-    }
 }
 
 /// A finite number of which something holds.
