@@ -54,7 +54,7 @@ impl From<BoundName> for Bound {
 pub(crate) enum PlacementName {
     /// Where the input has them
     Original,
-    /// Where the error is least: about an eighth fewer triangles for an error, in a file about twice as long
+    /// Where the error is least: about a ninth fewer triangles for an error, in a file about twice as long
     Best,
 }
 

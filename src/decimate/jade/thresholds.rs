@@ -13,8 +13,7 @@ use crate::bound::Limits;
 /// e* of the first limit when no error is asked for, as a part of the bounding diagonal: the coarsest of the paper's runs.
 const START: f64 = 0.01;
 
-/// Ceilings per iteration. With one the bunny keeps 4 % more triangles at 0.1 % of the diagonal and 9 % more at 0.5 %; eight
-/// are no better than four.
+/// Ceilings per iteration; `docs/builder-roads.md` says what they are worth.
 const CEILINGS: i32 = 4;
 
 /// The limits of one iteration after another.
@@ -39,7 +38,7 @@ impl Thresholds {
         Limits { local: self.local, global: (self.c2 * self.local).min(self.target) }
     }
 
-    /// Ceilings that rise in [`CEILINGS`] equal factors to the global limit of this iteration, from that of the one before.
+    /// Ceilings that rise in equal factors to the global limit of this iteration, from that of the one before.
     ///
     /// What is below the limit and above the ceiling waits, without being judged again: candidates then go nearly in the order
     /// of their errors, as if the limits rose four times as finely.
