@@ -170,11 +170,6 @@ fn decimate(
         (options.jade.placement == Placement::Best).then(|| Moves::new(&mesh.positions, triangles.len()));
     let place = |triangles: &[[u32; 3]]| triangles.iter().map(|t| t.map(|v| numbering.place(v))).collect();
     let (triangles, seams) = match points_and_looks {
-        // A vertex that moves is a new vertex at the same point, which only seams tell apart.
-        None if moves.is_some() => {
-            let looks = (0..).take(mesh.positions.len()).collect();
-            (place(&triangles), Some(Seams::new(triangles, looks)))
-        }
         None => (place(&triangles), None),
         Some((points, looks)) => {
             let over_points: Vec<[u32; 3]> =

@@ -42,15 +42,19 @@ impl Seams {
         vertices.all(|v| v == first).then_some(first)
     }
 
-    /// Gives the triangles at `point` the vertex `new`, which looks like `old` and has the next number.
-    pub fn rename(&mut self, surface: &Surface, point: u32, [old, new]: [u32; 2]) {
+    /// Gives the triangles at `point`, which have one vertex there, the vertex `new` instead, which has the next number. It looks
+    /// like the one before, whose number is returned.
+    pub fn rename(&mut self, surface: &Surface, point: u32, new: u32) -> u32 {
         debug_assert_eq!(new as usize, self.looks.len());
+        let star = surface.star(point);
+        let old = star.first().map_or(point, |&slot| self.vertex(surface, slot, point));
         self.looks.push(self.looks[old as usize]);
-        for &slot in surface.star(point) {
+        for &slot in star {
             for v in self.vertices[slot as usize].iter_mut().filter(|v| **v == old) {
                 *v = new;
             }
         }
+        old
     }
 
     /// Puts a triangle with these vertices into `slot`.

@@ -4,10 +4,11 @@
 //! triangle and every crossing its edge, and only the nearest points in them are new. Nothing outside the star changes,
 //! and the link stays where it is.
 
+use super::route::point_at;
 use super::{Certified, NOT_ON_RIM};
 use crate::geometry::distance::{Segment, closest_on_segment, closest_weights};
 use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, scale, sub};
-use crate::mesh::Surface;
+use crate::mesh::{Surface, facing_edge};
 
 /// A point of the input whose image moves with the vertex.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +60,8 @@ impl Certified {
         images.push(Image { source: surface.origin(v), onto: Onto::Vertex });
         let mut edges = vec![];
         for &slot in surface.star(v) {
-            let onto = Onto::Triangle(opposite(surface, slot, v).map(|corner| surface.point(corner)));
+            let (from, to) = facing_edge(surface.corners(slot), v);
+            let onto = Onto::Triangle([from, to].map(|corner| surface.point(corner)));
             // A vertex on the rim of the mesh is mapped to an edge there, which the star of an inner vertex has in its link.
             let vertices = self.contents.vertices(slot).iter().copied();
             let moving = vertices.filter(|&x| self.rim_corner[x as usize] == NOT_ON_RIM);
@@ -72,7 +74,7 @@ impl Certified {
     }
 
     fn crossings_at(&self, surface: &Surface, v: u32, edge: u32, images: &mut Vec<Image>) -> bool {
-        let [low, high] = self.source.ends(edge).map(|end| surface.origin(end));
+        let segment = self.source.ends(edge).map(|end| surface.origin(end));
         let mut portions = self.chains.of(edge).iter().copied();
         let Some(mut before) = portions.next() else { return true };
         for after in portions {
@@ -80,20 +82,13 @@ impl Certified {
             if from.contains(&v) && into.contains(&v) {
                 let mut shared = from.into_iter().filter(|&corner| corner != v && into.contains(&corner));
                 let (Some(end), None) = (shared.next(), shared.next()) else { return false };
-                let at = f64::from(before.end);
-                let source = if at == 1.0 { high } else { add_scaled(low, at, sub(high, low)) };
+                let source = point_at(segment, before.end);
                 images.push(Image { source, onto: Onto::Edge(surface.point(end)) });
             }
             before = after;
         }
         true
     }
-}
-
-/// The corners of the triangle in `slot` beside `v`, in its orientation.
-fn opposite(surface: &Surface, slot: u32, v: u32) -> [u32; 2] {
-    let (from, to) = crate::mesh::facing_edge(surface.corners(slot), v);
-    [from, to]
 }
 
 /// Largest squared displacement of the images when their vertex is at `apex`.

@@ -5,11 +5,11 @@ use super::dual_tree::{Crossing, DualTree};
 use super::labels::Labels;
 use super::removal::Removal;
 use crate::geometry::distance::{Segment, point_segment_distance_sq};
-use crate::geometry::vector::{add_scaled, dot, length_sq, sub};
+use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
 
 /// Where the vertices of a hole have gone.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Placement {
+pub(super) struct Destinations {
     /// The filling's dual tree.
     pub(super) tree: DualTree,
     /// The filling's triangle for each vertex mapped into the hole.
@@ -43,7 +43,7 @@ struct Part {
     end: f32,
 }
 
-impl Placement {
+impl Destinations {
     /// The end of a part at a source vertex.
     fn end_at(&self, removal: Removal<'_>, v: u32) -> End {
         match self.labels.get(v) {
@@ -59,8 +59,8 @@ impl Placement {
 }
 
 impl Route {
-    /// Makes this the new chain of `edge`; the largest squared displacement of a crossing that is new.
-    pub(super) fn find(&mut self, placement: &Placement, removal: Removal<'_>, edge: u32) -> f64 {
+    /// Makes this the new chain of `edge`; the largest squared disdestinations of a crossing that is new.
+    pub(super) fn find(&mut self, destinations: &Destinations, removal: Removal<'_>, edge: u32) -> f64 {
         let ends = removal.certified.source.ends(edge);
         let segment = ends.map(|v| removal.replacement.surface.origin(v));
         // An edge in one portion is known to the hole by its ends alone.
@@ -80,27 +80,35 @@ impl Route {
                 at += 1;
                 continue;
             };
-            let entry = if at == 0 { placement.end_at(removal, ends[0]) } else { placement.end_over(first) };
+            let entry =
+                if at == 0 { destinations.end_at(removal, ends[0]) } else { destinations.end_over(first) };
             let mut last = first;
             while let Some(next) = old.get(at + 1).and_then(|portion| removal.star_index(portion.slot)) {
                 last = next;
                 at += 1;
             }
             let is_last = at + 1 == old.len();
-            let exit = if is_last { placement.end_at(removal, ends[1]) } else { placement.end_over(last) };
+            let exit =
+                if is_last { destinations.end_at(removal, ends[1]) } else { destinations.end_over(last) };
             let end = old[at].end;
             largest_sq =
-                largest_sq.max(self.cross(placement, removal, segment, Part { entry, exit, start, end }));
+                largest_sq.max(self.cross(destinations, removal, segment, Part { entry, exit, start, end }));
             start = end;
             at += 1;
         }
         largest_sq
     }
 
-    /// Appends the portions of one part; the largest squared displacement of its crossings.
-    fn cross(&mut self, placement: &Placement, removal: Removal<'_>, segment: Segment, part: Part) -> f64 {
+    /// Appends the portions of one part; the largest squared disdestinations of its crossings.
+    fn cross(
+        &mut self,
+        destinations: &Destinations,
+        removal: Removal<'_>,
+        segment: Segment,
+        part: Part,
+    ) -> f64 {
         let hole = removal.replacement.hole;
-        let mut into = self.find_path(&placement.tree, part.entry, part.exit);
+        let mut into = self.find_path(&destinations.tree, part.entry, part.exit);
         let mut start = part.start;
         let mut largest_sq = 0.0_f64;
         for &Crossing { edge: [i, j], into: next } in &self.path {
@@ -150,9 +158,12 @@ impl Route {
 fn cross_nearest(segment: Segment, start: f32, end: f32, target: Segment) -> (f32, f64) {
     let s = nearest_parameter(segment, target) as f32;
     let s = if s.is_nan() { start } else { s.clamp(start, end) };
-    let direction = sub(segment[1], segment[0]);
-    let point = if s == 1.0 { segment[1] } else { add_scaled(segment[0], s.into(), direction) };
-    (s, point_segment_distance_sq(point, target))
+    (s, point_segment_distance_sq(point_at(segment, s), target))
+}
+
+/// The point of a source edge where a portion ends.
+pub(super) fn point_at([low, high]: Segment, end: f32) -> Vector {
+    if end == 1.0 { high } else { add_scaled(low, end.into(), sub(high, low)) }
 }
 
 /// Parameter on the line of `first`, unclamped at best effort, at which it is nearest to `second`.

@@ -3,14 +3,14 @@
 use super::NOT_ON_RIM;
 use super::chains::Portion;
 use super::removal::Removal;
-use super::route::{Placement, Route};
+use super::route::{Destinations, Route};
 use crate::bound::Replacement;
 use crate::geometry::distance::point_segment_distance_sq;
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
 pub struct Transfer {
-    placement: Placement,
+    destinations: Destinations,
     route: Route,
 }
 
@@ -50,42 +50,23 @@ pub(super) struct NewChain {
 impl Transfer {
     /// Largest displacement inside the hole, or the first one found above `limit`.
     pub(super) fn displacement(&mut self, removal: Removal<'_>, limit: f64) -> f64 {
-        let limit_sq = limit * limit;
-        let mut largest_sq = self.place_vertices(removal, limit_sq);
-        if largest_sq > limit_sq {
-            return largest_sq.sqrt();
-        }
-        let Self { placement, route } = self;
-        for edge in removal.moved_edges(&placement.labels) {
-            largest_sq = largest_sq.max(route.find(placement, removal, edge));
-            if largest_sq > limit_sq {
-                break;
-            }
-        }
-        largest_sq.sqrt()
+        self.walk(removal, limit * limit, |_, _| ()).sqrt()
     }
 
     /// What the removal changes, and the largest displacement; or, where that is above `limit`, the first one found.
     pub(super) fn change(&mut self, removal: Removal<'_>, limit: f64) -> Result<(f64, Change), f64> {
-        let limit_sq = limit * limit;
-        let mut largest_sq = self.place_vertices(removal, limit_sq);
         let mut change = Change { assignments: vec![], chains: vec![], portions: vec![], through: vec![] };
-        let Self { placement, route } = self;
-        let edges = removal.moved_edges(&placement.labels);
-        for edge in edges {
-            if largest_sq > limit_sq {
-                break;
-            }
-            largest_sq = largest_sq.max(route.find(placement, removal, edge));
-            removal.shorten(edge, &mut route.portions);
-            change.add_chain(removal, edge, &route.portions);
-        }
+        let limit_sq = limit * limit;
+        let largest_sq = self.walk(removal, limit_sq, |edge, portions| {
+            removal.shorten(edge, portions);
+            change.add_chain(removal, edge, portions);
+        });
         if largest_sq > limit_sq {
             return Err(largest_sq.sqrt());
         }
         let assign = |&vertex: &u32| Assignment {
             vertex,
-            label: placement.labels.get(vertex).unwrap_or_default(),
+            label: self.destinations.labels.get(vertex).unwrap_or_default(),
             rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
         };
         change.assignments.extend(removal.covered.vertices.iter().map(assign));
@@ -95,11 +76,35 @@ impl Transfer {
         Ok((largest_sq.sqrt(), change))
     }
 
+    /// Gives every source edge that the removal moves its new chain and shows it to `take`. Largest squared displacement
+    /// inside the hole, or the first one found above the limit.
+    #[inline]
+    fn walk(
+        &mut self,
+        removal: Removal<'_>,
+        limit_sq: f64,
+        mut take: impl FnMut(u32, &mut Vec<Portion>),
+    ) -> f64 {
+        let mut largest_sq = self.place_vertices(removal, limit_sq);
+        if largest_sq > limit_sq {
+            return largest_sq;
+        }
+        let Self { destinations, route } = self;
+        for edge in removal.moved_edges(&destinations.labels) {
+            largest_sq = largest_sq.max(route.find(destinations, removal, edge));
+            if largest_sq > limit_sq {
+                break;
+            }
+            take(edge, &mut route.portions);
+        }
+        largest_sq
+    }
+
     /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared displacement, or the
     /// first above the limit.
     fn place_vertices(&mut self, removal: Removal<'_>, limit_sq: f64) -> f64 {
         let Removal { replacement: Replacement { surface, hole, filling }, covered, .. } = removal;
-        let Placement { tree, labels } = &mut self.placement;
+        let Destinations { tree, labels } = &mut self.destinations;
         tree.build(hole, filling);
         labels.start(surface.n_vertices());
         let mut largest_sq = 0.0_f64;

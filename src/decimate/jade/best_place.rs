@@ -25,7 +25,7 @@ const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
 pub fn best_place(
     images: &[Image],
     start: [f32; 3],
-    bounds: [[f32; 3]; 2],
+    bounds: ([f32; 3], [f32; 3]),
     is_allowed: impl Fn(Vector) -> bool,
 ) -> Option<([f32; 3], f64)> {
     let mut best = (start, largest_sq(images, widen(start)));
@@ -93,7 +93,7 @@ fn least_largest(terms: &mut [Term]) -> Vector {
 
 /// The nearest `f32` position within `bounds`.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what it is for")]
-fn narrow(p: Vector, [low, high]: [[f32; 3]; 2]) -> [f32; 3] {
+fn narrow(p: Vector, (low, high): ([f32; 3], [f32; 3])) -> [f32; 3] {
     std::array::from_fn(|i| (p[i] as f32).max(low[i]).min(high[i]))
 }
 
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
     use crate::bound::certified::images::Onto;
 
-    const SPACE: [[f32; 3]; 2] = [[-9.0; 3], [9.0; 3]];
+    const SPACE: ([f32; 3], [f32; 3]) = ([-9.0; 3], [9.0; 3]);
 
     /// A flat tent over a square: each of its four faces stands for a point at height 1 over the middle between the apex and
     /// the far edge.
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn places_out_of_bounds_or_not_allowed_are_not_taken() {
-        let flat = [[-9.0, -9.0, 0.0], [9.0, 9.0, 0.25]];
+        let flat = ([-9.0, -9.0, 0.0], [9.0, 9.0, 0.25]);
         let (place, _) = best_place(&tent(), [0.0; 3], flat, |_| true).unwrap();
         assert_eq!(place[2], 0.25);
         assert_eq!(best_place(&tent(), [0.0; 3], SPACE, |place| place[2] < 0.05), None);

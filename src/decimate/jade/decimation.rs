@@ -13,7 +13,7 @@ pub struct Decimation {
     pub surface: Surface,
     /// Its seams, if it has any.
     pub seams: Option<Seams>,
-    /// Vertex of the input for each vertex of `surface`.
+    /// Vertex of the history for each vertex of `surface`, where there are no seams to tell it.
     pub names: Vec<u32>,
     /// Its errors.
     pub error: GlobalError,
@@ -52,7 +52,7 @@ impl Decimation {
     }
 }
 
-/// The vertices of the input at the corners of the triangle in `slot`.
+/// The vertices of the history at the corners of the triangle in `slot`.
 pub(super) fn named_corners(surface: &Surface, seams: Option<&Seams>, names: &[u32], slot: u32) -> [u32; 3] {
     match seams {
         Some(seams) => seams.corners(slot),

@@ -8,10 +8,11 @@
 
 use super::best_place::best_place;
 use super::candidate::Scratch;
-use super::decimation::Decimation;
+use super::decimation::{Decimation, named_corners};
 use super::validity::{WORST_ASPECT, aspect, worst_star_aspect};
 use crate::bound::GlobalError;
 use crate::bound::certified::images::largest_sq;
+use crate::geometry::morton::bounds;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Hole;
 use rayon::prelude::*;
@@ -31,16 +32,13 @@ pub struct Moves {
     /// For each, the vertex it was before, and its place.
     pub born: Vec<(u32, [f32; 3])>,
     n_triangles_last: usize,
-    bounds: [[f32; 3]; 2],
+    bounds: ([f32; 3], [f32; 3]),
 }
 
 impl Moves {
     /// None yet, of the vertices at `positions` in a mesh of `n_triangles`.
     pub fn new(positions: &[[f32; 3]], n_triangles: usize) -> Self {
-        let none = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-        let bounds = positions.iter().fold(none, |[low, high], p| {
-            [std::array::from_fn(|i| low[i].min(p[i])), std::array::from_fn(|i| high[i].max(p[i]))]
-        });
+        let bounds = bounds(positions.iter().copied());
         Self { born: vec![], n_triangles_last: n_triangles, bounds }
     }
 }
@@ -130,9 +128,7 @@ fn keeps_shape(hole: &Hole, place: Vector) -> bool {
 
 /// Writes the moves down: the stars of the old vertices die, those of the new ones are born.
 fn record(decimation: &mut Decimation, moved: &[u32]) {
-    let Decimation { surface, seams: Some(seams), moves: Some(moves), recorder, .. } = decimation else {
-        return;
-    };
+    let Decimation { surface, seams, names, moves: Some(moves), recorder, .. } = decimation else { return };
     moves.n_triangles_last = surface.n_triangles();
     if moved.is_empty() {
         return;
@@ -141,11 +137,15 @@ fn record(decimation: &mut Decimation, moved: &[u32]) {
     let mut slots: Vec<u32> = moved.iter().flat_map(|&v| surface.star(v)).copied().collect();
     slots.sort_unstable();
     slots.dedup();
-    slots.iter().for_each(|&slot| recorder.death(slot, seams.corners(slot)));
+    for &slot in &slots {
+        recorder.death(slot, named_corners(surface, seams.as_ref(), names, slot));
+    }
     for &v in moved {
-        let Some(old) = seams.only_vertex(surface, v) else { continue };
         let new = recorder.vertex();
-        seams.rename(surface, v, [old, new]);
+        let old = match seams {
+            Some(seams) => seams.rename(surface, v, new),
+            None => std::mem::replace(&mut names[v as usize], new),
+        };
         moves.born.push((old, surface.positions()[v as usize]));
     }
     slots.iter().for_each(|&slot| recorder.birth(slot));
