@@ -6,6 +6,10 @@
 //! * `granularity`: levels and bytes beside that chain, and vertex transforms of levels drawn as runs.
 //! * `growth`: query time from ten thousand lifetimes to a hundred million.
 //! * `intervals`: extraction beside general interval trees over the same lifetimes.
+//! * `progressive`: progressive decimation beside vtkDecimatePro, and its stream beside other codecs.
+//! * `figure7`: its collapses and splits beside those of its paper.
+//! * `any_count`: is every step of it a mesh in order, on any input?
+//! * `parts`: parts for a database, millions of triangles in all.
 //!
 //! This crate is a workspace of its own: building or testing the project builds none of it.
 
@@ -14,10 +18,12 @@ pub mod chain;
 mod error;
 mod every_level;
 pub mod lifetimes;
+mod progressive;
 pub mod statistics;
 pub mod stopwatch;
 mod table;
 
 pub use error::CompareError;
 pub use every_level::{Build, KeptLevels, build_lod, load, spread_levels};
+pub use progressive::decimate_progressively;
 pub use table::Table;

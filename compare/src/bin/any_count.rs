@@ -5,10 +5,8 @@
 
 use clap::Parser;
 use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-use nephrite::{Bound, BuildOptions, Method, build};
-use nephrite_compare::load;
+use nephrite_compare::{decimate_progressively, load};
 use std::collections::HashSet;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -68,10 +66,7 @@ fn list(path: &Path, paths: &mut Vec<PathBuf>) {
 /// What there is to say of a mesh; nothing of a file that has none.
 fn check(path: &Path, arguments: &Arguments) -> Result<Option<String>, Vec<String>> {
     let Ok(mesh) = load(path) else { return Ok(None) };
-    let mut options =
-        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
-    options.progressive.pre_split = arguments.pre_split;
-    let Ok(build) = build(&mesh, &options, &|_| ControlFlow::Continue(())) else { return Ok(None) };
+    let Ok(build) = decimate_progressively(&mesh, 1.0, arguments.pre_split) else { return Ok(None) };
     let faults = std::cell::RefCell::new(Vec::new());
     let fail = |what: String| {
         if faults.borrow().len() < 5 {

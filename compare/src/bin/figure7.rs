@@ -7,9 +7,8 @@ use clap::Parser;
 use nephrite::decimate::progressive::Passage;
 use nephrite::generate::{Drilling, drilled_plate, heat_exchanger, shell};
 use nephrite::history::NEVER;
-use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build};
-use nephrite_compare::{CompareError, Table};
-use std::ops::ControlFlow;
+use nephrite::{Build, TriangleMesh};
+use nephrite_compare::{CompareError, Table, decimate_progressively};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -63,14 +62,6 @@ fn main() -> ExitCode {
     }
 }
 
-fn decimate(mesh: &TriangleMesh, reduction: f64, pre_split: bool) -> Result<Build, CompareError> {
-    let mut options =
-        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
-    options.progressive.reduction = Some(reduction);
-    options.progressive.pre_split = pre_split;
-    Ok(build(mesh, &options, &|_| ControlFlow::Continue(()))?)
-}
-
 fn print_part(part: &Part) -> Result<(), CompareError> {
     let n_in = part.mesh.triangles.len();
     println!("\n{}: {n_in} triangles, the paper's {}\n", part.name, part.triangles);
@@ -89,9 +80,9 @@ fn print_part(part: &Part) -> Result<(), CompareError> {
     ]);
     for (reduction, [collapses, splits]) in REDUCTIONS.into_iter().zip(part.operations) {
         let start = Instant::now();
-        let plain = decimate(&part.mesh, reduction, false)?;
+        let plain = decimate_progressively(&part.mesh, reduction, false)?;
         let milliseconds = 1e3 * start.elapsed().as_secs_f64();
-        let split = decimate(&part.mesh, reduction, true)?;
+        let split = decimate_progressively(&part.mesh, reduction, true)?;
         let counts =
             |build: &Build| build.passage.as_ref().map(|Passage { counts, .. }| *counts).unwrap_or_default();
         let left = |build: &Build| build.history.death.iter().filter(|&&death| death == NEVER).count();
@@ -121,7 +112,7 @@ fn print_last_stages() -> Result<(), CompareError> {
         let mesh = drilled_plate(&drilling);
         let n_in = mesh.triangles.len();
         let left = 1.0 - (paper as f64 + 0.5) / n_in as f64;
-        let build = decimate(&mesh, left, true)?;
+        let build = decimate_progressively(&mesh, left, true)?;
         let mut by_face = [0; 3];
         let alive = build.history.simplices.iter().zip(&build.history.death);
         for (triangle, _) in alive.filter(|&(_, &death)| death == NEVER) {

@@ -30,7 +30,8 @@ fn main() -> ExitCode {
     for index in 0..parts {
         let (name, mesh) = part(index);
         n_triangles += mesh.triangles.len();
-        if let Err(error) = nephrite_formats::write_mesh(folder.join(format!("{name}-{index:05}.ply")), &mesh) {
+        if let Err(error) = nephrite_formats::write_mesh(folder.join(format!("{name}-{index:05}.ply")), &mesh)
+        {
             eprintln!("parts: {error}");
             return ExitCode::FAILURE;
         }
@@ -44,7 +45,11 @@ fn part(index: u32) -> (&'static str, TriangleMesh) {
     let share = (f64::from(index) * 0.618_033_988_749_895).fract();
     let wished = 1600.0 + 8300.0 * share;
     let of_squares = |per_square: f64| {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a hundred squares")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most a hundred squares"
+        )]
         let n_squares = (wished / per_square) as u32;
         let columns = n_squares.isqrt().max(1) + index % 2;
         [columns, (n_squares / columns).max(1)]

@@ -6,11 +6,10 @@
 use clap::Parser;
 use nephrite::decimate::progressive::Passage;
 use nephrite::progressive_mesh::{ProgressiveMesh, StreamError, encode};
-use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build};
+use nephrite::{Build, TriangleMesh};
 use nephrite_compare::statistics::median;
-use nephrite_compare::{CompareError, Table, load};
+use nephrite_compare::{Table, decimate_progressively, load};
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
@@ -76,7 +75,7 @@ fn compare(path: &Path, arguments: &Arguments) -> Result<(), Box<dyn std::error:
         let (mut ours, mut theirs, mut counts) = (vec![], vec![], None);
         for _ in 0..arguments.repeats {
             let start = Instant::now();
-            let build = decimate(&mesh, reduction, arguments.pre_split)?;
+            let build = decimate_progressively(&mesh, reduction, arguments.pre_split)?;
             ours.push(start.elapsed().as_secs_f64());
             counts = build.passage.as_ref().map(|Passage { counts, .. }| *counts);
             if let Some(python) = &arguments.python {
@@ -95,17 +94,9 @@ fn compare(path: &Path, arguments: &Arguments) -> Result<(), Box<dyn std::error:
         ]);
     }
     println!("{table}");
-    let build = decimate(&mesh, 1.0, arguments.pre_split)?;
+    let build = decimate_progressively(&mesh, 1.0, arguments.pre_split)?;
     print_stream(&build, arguments.repeats)?;
     print_codecs(&mesh, path, arguments.python.as_deref())
-}
-
-fn decimate(mesh: &TriangleMesh, reduction: f64, pre_split: bool) -> Result<Build, CompareError> {
-    let mut options =
-        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
-    options.progressive.reduction = Some(reduction);
-    options.progressive.pre_split = pre_split;
-    Ok(build(mesh, &options, &|_| ControlFlow::Continue(()))?)
 }
 
 /// What other codecs make of the same triangles and positions, in bits per vertex. meshoptimizer's keep every bit, in the order that
