@@ -16,28 +16,17 @@ mod ply;
 mod shapes;
 mod stl;
 
-use corpus::{Corpus, variant};
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{BuildError, BuildOptions, Lod};
+use corpus::{Case, Corpus, served, told, variant};
+use nephrite::{BuildError, BuildOptions};
 use nephrite_formats::{MeshError, MeshFormat, read_mesh};
-use std::collections::{BTreeMap, BTreeSet};
-use std::io::Cursor;
+use serde_json::json;
+use std::collections::BTreeSet;
 use std::ops::ControlFlow::Continue;
 use std::path::Path;
 
-/// A file: its name and its bytes.
-type Case = (String, Vec<u8>);
-
 fn corpus() -> Corpus {
-    Corpus { folder: "tests/bad_meshes", cases: cases() }
-}
-
-fn cases() -> BTreeMap<String, Vec<u8>> {
     let lists = [ply::cases(), obj::cases(), stl::cases(), off::cases(), gltf::cases(), shapes::cases()];
-    let n_cases: usize = lists.iter().map(Vec::len).sum();
-    let cases: BTreeMap<_, _> = lists.into_iter().flatten().collect();
-    assert_eq!(cases.len(), n_cases, "two files of one name");
-    cases
+    Corpus::new("tests/bad_meshes", lists)
 }
 
 /// What becomes of a file: `refused: ERROR`, or its triangles and every count of what was dropped, ignored or repaired.
@@ -56,25 +45,9 @@ fn outcome(path: &Path) -> String {
         Err(error @ BuildError::NoTriangles { .. }) => return format!("refused: {}", variant(&error)),
         Err(error) => panic!("{}: {error}", path.display()),
     };
-    let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, &build.mesh, &build.history, &Provenance::default(), &StoreOptions::default())
-        .unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
-    let mut counts = Vec::new();
-    for report in [serde_json::json!(report), serde_json::json!(build.repairs)] {
-        let of_number = |(key, value): (&String, &serde_json::Value)| {
-            value.as_u64().filter(|&n| n > 0).map(|n| format!("{key} {n}"))
-        };
-        counts.extend(report.as_object().unwrap().iter().filter_map(of_number));
-    }
-    counts.extend(report.warnings.iter().map(variant));
+    let lod = served(&build.mesh, &build.history);
     let triangles = format!("{} triangles", lod.at_level(0).n_triangles());
-    if counts.is_empty() {
-        format!("accepted: {triangles}")
-    } else {
-        format!("repaired: {triangles}, {}", counts.join(", "))
-    }
+    told(&triangles, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
 }
 
 #[test]

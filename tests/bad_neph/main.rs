@@ -20,24 +20,17 @@ mod valid;
 
 use corpus::{Corpus, variant, variants};
 use nephrite::store::{OpenError, VerifyError};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use support::damage::{Outcome, open_and_use};
 
 /// Files by name, without the extension.
 type Cases = Vec<(&'static str, Vec<u8>)>;
 
+/// Small valid files with one thing wrong, all checksums made right where the fault is not in them.
 fn corpus() -> Corpus {
-    Corpus { folder: "tests/bad_neph", cases: cases() }
-}
-
-/// All files, by name: small valid ones with one thing wrong, all checksums made right where the fault is not in them.
-fn cases() -> BTreeMap<String, Vec<u8>> {
     let lists = [heads::cases(), contents::cases(), operations::cases(), trees::cases()];
-    let n_cases: usize = lists.iter().map(Vec::len).sum();
-    let cases: BTreeMap<_, _> =
-        lists.into_iter().flatten().map(|(name, bytes)| (format!("{name}.neph"), bytes)).collect();
-    assert_eq!(cases.len(), n_cases, "two files of one name");
-    cases
+    let named = |(name, bytes): (&str, Vec<u8>)| (format!("{name}.neph"), bytes);
+    Corpus::new("tests/bad_neph", lists.map(|list| list.into_iter().map(named).collect()))
 }
 
 fn outcome(bytes: &[u8]) -> String {

@@ -18,23 +18,15 @@ mod tetgen;
 mod vtk;
 mod vtu;
 
-use corpus::{Corpus, variant, variants};
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{BuildError, Lod, VolumeOptions, build_volume};
+use corpus::{Case, Corpus, served, told, variant, variants};
+use nephrite::{BuildError, VolumeOptions, build_volume};
 use nephrite_formats::{MeshError, VolumeFormat, read_volume};
-use std::collections::{BTreeMap, BTreeSet};
-use std::io::Cursor;
+use serde_json::json;
+use std::collections::BTreeSet;
 use std::ops::ControlFlow::Continue;
 use std::path::Path;
 
-/// A file: its name and its bytes.
-type Case = (String, Vec<u8>);
-
 fn corpus() -> Corpus {
-    Corpus { folder: "tests/bad_volumes", cases: cases() }
-}
-
-fn cases() -> BTreeMap<String, Vec<u8>> {
     let lists = [
         vtk::cases(),
         vtu::cases(),
@@ -44,10 +36,7 @@ fn cases() -> BTreeMap<String, Vec<u8>> {
         plot3d::cases(),
         shapes::cases(),
     ];
-    let n_cases: usize = lists.iter().map(Vec::len).sum();
-    let cases: BTreeMap<_, _> = lists.into_iter().flatten().collect();
-    assert_eq!(cases.len(), n_cases, "two files of one name");
-    cases
+    Corpus::new("tests/bad_volumes", lists)
 }
 
 /// A text with the first place of `from` replaced, which must be there.
@@ -81,25 +70,9 @@ fn outcome(path: &Path) -> String {
         Err(error @ BuildError::NoTetrahedra { .. }) => return format!("refused: {}", variant(&error)),
         Err(error) => panic!("{}: {error}", path.display()),
     };
-    let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, &build.mesh, &build.history, &Provenance::default(), &StoreOptions::default())
-        .unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
-    let mut counts = Vec::new();
-    for report in [serde_json::json!(report), serde_json::json!(build.repairs)] {
-        let of_number = |(key, value): (&String, &serde_json::Value)| {
-            value.as_u64().filter(|&n| n > 0).map(|n| format!("{key} {n}"))
-        };
-        counts.extend(report.as_object().unwrap().iter().filter_map(of_number));
-    }
-    counts.extend(report.warnings.iter().map(variant));
+    let lod = served(&build.mesh, &build.history);
     let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_triangles());
-    if counts.is_empty() {
-        format!("accepted: {tetrahedra}")
-    } else {
-        format!("repaired: {tetrahedra}, {}", counts.join(", "))
-    }
+    told(&tetrahedra, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
 }
 
 #[test]

@@ -1,9 +1,17 @@
 //! A folder of files that the tests make, each with a stated outcome in `outcomes.txt` beside them.
 
 #![allow(unreachable_pub, reason = "a test file is no library")]
+#![allow(dead_code, reason = "each test takes what it needs")]
 
+use nephrite::store::{Provenance, StoreOptions, Vertices, write_to};
+use nephrite::{History, Lod};
+use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
+
+/// The name of a file and its bytes.
+pub type Case = (String, Vec<u8>);
 
 /// Files by name, and where they are kept.
 pub struct Corpus {
@@ -14,6 +22,15 @@ pub struct Corpus {
 }
 
 impl Corpus {
+    /// The files of several lists, no two of one name.
+    pub fn new(folder: &'static str, lists: impl IntoIterator<Item = Vec<Case>>) -> Self {
+        let files: Vec<Case> = lists.into_iter().flatten().collect();
+        let n_files = files.len();
+        let cases: BTreeMap<_, _> = files.into_iter().collect();
+        assert_eq!(cases.len(), n_files, "two files of one name");
+        Self { folder, cases }
+    }
+
     fn path(&self, name: &str) -> PathBuf {
         Path::new(env!("CARGO_MANIFEST_DIR")).join(self.folder).join(name)
     }
@@ -64,6 +81,32 @@ impl Corpus {
             assert!(std::fs::read(self.file(name)).unwrap() == *bytes, "{name} has changed");
         }
         there
+    }
+}
+
+/// The verified file that holds a history.
+pub fn served<'a, const CORNERS: usize>(mesh: impl Into<Vertices<'a>>, history: &History<CORNERS>) -> Lod {
+    let mut stream = Cursor::new(Vec::new());
+    write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions::default()).unwrap();
+    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
+    lod.verify().unwrap();
+    lod
+}
+
+/// What is told of a file that was not refused: what is served of it, every count of the reports that is not zero, and the
+/// variants of the warnings.
+pub fn told(served: &str, reports: [Value; 2], warnings: impl Iterator<Item = String>) -> String {
+    let mut counts = Vec::new();
+    for report in reports {
+        let of_number =
+            |(key, value): (&String, &Value)| value.as_u64().filter(|&n| n > 0).map(|n| format!("{key} {n}"));
+        counts.extend(report.as_object().unwrap().iter().filter_map(of_number));
+    }
+    counts.extend(warnings);
+    if counts.is_empty() {
+        format!("accepted: {served}")
+    } else {
+        format!("repaired: {served}, {}", counts.join(", "))
     }
 }
 

@@ -19,6 +19,19 @@ use support::Workplace;
 /// Kills in the usual run; `NEPHRITE_KILLS=1000` for a long one.
 const N_KILLS: usize = 40;
 
+/// Starts the program and kills it after so many microseconds.
+fn kill_after(place: &Workplace, line: &str, microseconds: u64) {
+    let mut build = place
+        .command(line.split_whitespace())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    thread::sleep(Duration::from_micros(microseconds));
+    build.kill().expect("a process of our own");
+    build.wait().expect("it ends");
+}
+
 #[test]
 fn killed_builds_leave_the_old_file_or_the_new_one() {
     let n_kills = n_kills(N_KILLS);
@@ -35,19 +48,11 @@ fn killed_builds_leave_the_old_file_or_the_new_one() {
     for kill in 0..n_kills {
         let next = 1 - holds;
         let line = format!("build in.ply -o out.neph {}", options[next]);
-        let mut build = place
-            .command(line.split_whitespace())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the program starts");
         // Half of the kills meet the last fifth, in which the file is written.
         let random = RandomState::new().hash_one(kill);
         let (earliest, length) =
             if kill % 2 == 0 { (0, duration_us) } else { (duration_us * 4 / 5, duration_us / 4) };
-        thread::sleep(Duration::from_micros(earliest + random % length));
-        build.kill().expect("a process of our own");
-        build.wait().expect("it ends");
+        kill_after(&place, &line, earliest + random % length);
         let found = place.read("out.neph");
         let held = whole.iter().position(|whole| *whole == found);
         assert!(held.is_some(), "kill {kill}: {} bytes are neither file", found.len());
@@ -79,15 +84,7 @@ fn killed_databases_hold_whole_files_only() {
     let mut n_whole = 0;
     for kill in 0..n_kills {
         let line = format!("build{parts} --output-dir db");
-        let mut build = place
-            .command(line.split_whitespace())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the program starts");
-        thread::sleep(Duration::from_micros(RandomState::new().hash_one(kill) % duration_us));
-        build.kill().expect("a process of our own");
-        build.wait().expect("it ends");
+        kill_after(&place, &line, RandomState::new().hash_one(kill) % duration_us);
         let there =
             PARTS.map(|part| format!("{part}.neph")).map(|file| (place.path(format!("db/{file}")), file));
         let there: Vec<_> = there.into_iter().filter(|(path, _)| path.exists()).collect();
