@@ -99,6 +99,20 @@ impl<'a> Scanner<'a> {
         }
     }
 
+    /// The next bytes as they are, in a file that has both words and numbers in binary; `None` where fewer are left.
+    pub(crate) fn take_bytes<const N: usize>(&mut self) -> Option<&'a [u8; N]> {
+        let bytes = self.bytes[self.at..].first_chunk()?;
+        self.at += N;
+        Some(bytes)
+    }
+
+    /// Goes behind the next place where some bytes stand, or to the end where they do not.
+    pub(crate) fn pass_bytes(&mut self, bytes: &[u8]) {
+        let rest = &self.bytes[self.at..];
+        let found = rest.windows(bytes.len().max(1)).position(|window| window == bytes);
+        self.at += found.map_or(rest.len(), |found| found + bytes.len());
+    }
+
     /// The next word of any line as a number.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ fn read_volume_within(
     within(bytes.len(), format, || read_volume_bytes(bytes, format))
 }
 
-/// Two tetrahedra in every text format of volumes, and in binary where it is written.
+/// Two tetrahedra in every text format of volumes, and in binary where it is written here.
 fn volumes() -> Vec<(VolumeFormat, Vec<u8>)> {
     let mesh = TetrahedronMesh {
         positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.3]],
@@ -67,6 +67,41 @@ fn numbers_in_volumes_that_claim_more_are_refused_or_cost_nothing() {
                 let _ = read_volume_within(&edited, format);
             }
             at += n_digits.max(1);
+        }
+    }
+}
+
+/// Whole files of the corpus, each in both byte orders.
+const BINARY: [(VolumeFormat, &str); 6] = [
+    (VolumeFormat::Gmsh, "binary-2-whole.msh"),
+    (VolumeFormat::Gmsh, "binary-2-big-endian.msh"),
+    (VolumeFormat::Gmsh, "binary-4-whole.msh"),
+    (VolumeFormat::Gmsh, "binary-4-big-endian.msh"),
+    (VolumeFormat::Medit, "binary-whole.meshb"),
+    (VolumeFormat::Medit, "binary-big-endian.meshb"),
+];
+
+#[test]
+fn binary_numbers_that_claim_more_are_refused_or_cost_nothing() {
+    let _guard = alone();
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/bad_volumes/files");
+    let giants: [&[u8]; 6] = [
+        &[0xFF; 8],
+        &[0xFF; 4],
+        &[0xFF, 0xFF, 0xFF, 0x7F],
+        &[0x7F, 0xFF, 0xFF, 0xFF],
+        &[0, 0, 0, 1],
+        &[1, 0, 0, 0],
+    ];
+    for (format, name) in BINARY {
+        let bytes = std::fs::read(folder.join(name)).unwrap();
+        read_volume_within(&bytes, format).unwrap();
+        for at in 0..bytes.len() {
+            for giant in giants {
+                let rest = bytes.get(at + giant.len()..).unwrap_or_default();
+                // Whatever comes of it, it is bounded.
+                let _ = read_volume_within(&[&bytes[..at], giant, rest].concat(), format);
+            }
         }
     }
 }

@@ -8,10 +8,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small literal meshes")]
 
+mod binary;
 #[path = "../support/corpus.rs"]
 mod corpus;
 mod gmsh;
+mod gmsh_binary;
 mod medit;
+mod meshb;
 mod plot3d;
 mod shapes;
 mod tetgen;
@@ -31,7 +34,9 @@ fn corpus() -> Corpus {
         vtk::cases(),
         vtu::cases(),
         gmsh::cases(),
+        gmsh_binary::cases(),
         medit::cases(),
+        meshb::cases(),
         tetgen::cases(),
         plot3d::cases(),
         shapes::cases(),

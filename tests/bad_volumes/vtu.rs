@@ -12,7 +12,8 @@ const TEXT: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" 
 </Piece></UnstructuredGrid></VTKFile>\n";
 
 pub(crate) fn cases() -> Vec<Case> {
-    let lists = [documents(), counts(), cells(), arrays(), inline_binaries(), appended(), compressed()];
+    let lists =
+        [documents(), pieces(), counts(), cells(), arrays(), inline_binaries(), appended(), compressed()];
     lists.into_iter().flat_map(|cases| named("vtu", cases)).collect()
 }
 
@@ -52,6 +53,56 @@ fn documents() -> Cases {
         ("grid-missing", "<VTKFile type=\"UnstructuredGrid\"/>".into()),
         ("bom", [b"\xef\xbb\xbf", TEXT.as_bytes()].concat()),
         ("crlf", TEXT.replace('\n', "\r\n").into()),
+    ]
+}
+
+/// The file with a second piece behind its only one: the first one in which a part is replaced.
+fn with_second_piece(from: &str, to: &str) -> Vec<u8> {
+    let [start, end] = [TEXT.find("<Piece").unwrap(), TEXT.find("</Piece>").unwrap() + "</Piece>".len()];
+    let second = edited(&TEXT[start..end], from, to);
+    [&TEXT.as_bytes()[..end], &second, &TEXT.as_bytes()[end..]].concat()
+}
+
+fn pieces() -> Cases {
+    let heat = "<PointData><DataArray type=\"Float64\" Name=\"heat\" format=\"ascii\">1 2 3 4 5</DataArray></PointData>";
+    vec![
+        ("pieces-two", with_second_piece("0 0 0 1 0 0", "0 0 2 1 0 2")),
+        ("pieces-two-alike", with_second_piece("heat", "heat")),
+        (
+            "pieces-second-empty",
+            edited(TEXT, "</Piece>", "</Piece><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/>"),
+        ),
+        ("pieces-second-without-field", with_second_piece(heat, "")),
+        ("pieces-second-with-another-field", with_second_piece("\"heat\"", "\"cold\"")),
+        ("pieces-field-of-other-type", with_second_piece("Float64", "Int8")),
+        (
+            "pieces-field-of-other-shape",
+            with_second_piece(
+                "\"ascii\">1 2 3 4 5<",
+                "\"ascii\" NumberOfComponents=\"2\">1 2 3 4 5 6 7 8 9 10<",
+            ),
+        ),
+        ("pieces-field-too-short", with_second_piece("1 2 3 4 5<", "1 2 3 4<")),
+        (
+            "pieces-points-4-billion",
+            with_second_piece("NumberOfPoints=\"5\"", "NumberOfPoints=\"4294967295\""),
+        ),
+        ("pieces-cells-one-less", with_second_piece("NumberOfCells=\"2\"", "NumberOfCells=\"1\"")),
+        ("pieces-index-into-the-first", with_second_piece("0 1 2 3 1 2 3 4<", "0 1 2 3 5 6 7 8<")),
+        ("pieces-index-before-the-first", with_second_piece("0 1 2 3 1 2 3 4<", "0 1 2 3 -5 2 3 4<")),
+        (
+            "pieces-points-of-other-type",
+            with_second_piece("type=\"Float32\" NumberOf", "type=\"Float64\" NumberOf"),
+        ),
+        ("pieces-without-points", with_second_piece("Points><DataArray type", "Pints><DataArray type")),
+        (
+            "pieces-within-a-piece",
+            edited(TEXT, "</Piece>", "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/></Piece>"),
+        ),
+        (
+            "pieces-a-thousand-empty",
+            edited(TEXT, "</Piece>", &["</Piece>", &"<Piece/>".repeat(1000)].concat()),
+        ),
     ]
 }
 

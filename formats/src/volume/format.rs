@@ -20,7 +20,7 @@ pub enum VolumeFormat {
     Vtu,
     /// Legacy VTK, text or binary.
     Vtk,
-    /// Gmsh 2.2 and 4.1, text.
+    /// Gmsh 2.2 and 4.1, text or binary.
     Gmsh,
     /// MEDIT, text or binary.
     Medit,

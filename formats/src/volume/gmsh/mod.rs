@@ -1,0 +1,402 @@
+//! Gmsh files (`.msh`), text and binary, versions 2.2 and 4.1.
+//!
+//! Both encodings have the same numbers in the same order, but for the elements of version 2: in text each says its own type
+//! and tags, in binary many of one type follow each other.
+//!
+//! Reference: C. Geuzaine, J.-F. Remacle: Gmsh reference manual, "MSH file format".
+
+mod element;
+mod source;
+
+use super::cells::{CellKind, Cells};
+use super::pending::{Fields, Points, finish};
+use super::scalars::{NumberType, Numbers};
+use super::words::Names;
+use crate::error::MeshError;
+use crate::{ScalarType, TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use element::ElementType;
+use source::Source;
+
+/// Reads a Gmsh file. Tags of elements are left out; values at nodes are fields, each time step one of its own.
+///
+/// # Errors
+///
+/// Any [`MeshError`] about contents; [`MeshError::Unsupported`] for other versions.
+pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+    let mut reader = Reader {
+        source: Source::new(bytes),
+        report: VolumeReport::new(VolumeFormat::Gmsh),
+        is_version_4: false,
+        names: Names::default(),
+        points: Vec::new(),
+        cells: Cells::default(),
+        fields: Fields::default(),
+    };
+    while let Some(word) = reader.source.word() {
+        reader.section(word)?;
+    }
+    let points = reader.points;
+    let points = if reader.source.is_text() { Points::Text(points) } else { Points::F64(points) };
+    finish(points, reader.cells, reader.fields, reader.report)
+}
+
+struct Reader<'a> {
+    source: Source<'a>,
+    report: VolumeReport,
+    is_version_4: bool,
+    names: Names,
+    points: Vec<[f64; 3]>,
+    cells: Cells,
+    fields: Fields,
+}
+
+/// Bytes of a whole number and of a coordinate in binary.
+const INT_BYTES: usize = 4;
+const NUMBER_BYTES: usize = 8;
+
+impl Reader<'_> {
+    fn section(&mut self, word: &[u8]) -> Result<(), MeshError> {
+        match word {
+            b"$MeshFormat" => self.format()?,
+            b"$Nodes" if self.is_version_4 => self.nodes_4()?,
+            b"$Nodes" => self.nodes_2()?,
+            b"$Elements" if self.is_version_4 => self.elements_4()?,
+            b"$Elements" => self.elements_2()?,
+            b"$NodeData" => self.node_data()?,
+            _ if word.starts_with(b"$") && !word.starts_with(b"$End") => self.skip(word),
+            _ if word.starts_with(b"$End") => {}
+            _ => return Err(self.source.unexpected("a section of a Gmsh file", Some(word))),
+        }
+        Ok(())
+    }
+
+    fn format(&mut self) -> Result<(), MeshError> {
+        let version = self.source.text_number()?;
+        let file_type = self.source.text_integer()?;
+        let size_bytes = self.source.text_integer()?;
+        let place = self.source.place();
+        let unsupported = |feature: String| Err(MeshError::Unsupported { place, feature });
+        self.is_version_4 = version >= 4.1;
+        let is_known = (2.0..3.0).contains(&version) || (4.1..5.0).contains(&version);
+        if !is_known {
+            return unsupported(format!("Gmsh version {version:?}"));
+        }
+        match (file_type, size_bytes) {
+            (0, _) => Ok(()),
+            (1, 8) => self.source.begin_binary(8),
+            (1, 4) if self.is_version_4 => self.source.begin_binary(4),
+            (1, _) => unsupported(format!("Gmsh numbers of {size_bytes} bytes")),
+            _ => unsupported(format!("Gmsh file type {file_type}")),
+        }
+    }
+
+    fn nodes_2(&mut self) -> Result<(), MeshError> {
+        let n = self.source.text_count("nodes")?;
+        self.source.begin_numbers();
+        for _ in 0..n {
+            let name = self.source.int()?;
+            self.names.push(name, self.source.place())?;
+            self.points.push(self.source.point()?);
+        }
+        Ok(())
+    }
+
+    /// Blocks of numbers, then of coordinates.
+    fn nodes_4(&mut self) -> Result<(), MeshError> {
+        self.source.begin_numbers();
+        let n_blocks = self.source.count(3 * INT_BYTES, "blocks")?;
+        (0..3).try_for_each(|_| self.source.size().map(drop))?;
+        for _ in 0..n_blocks {
+            let n_dimensions = self.source.int()?;
+            self.source.int()?;
+            let n_parameters = if self.source.int()? != 0 { n_dimensions.clamp(0, 3) } else { 0 };
+            let n = self.source.count(3 * NUMBER_BYTES, "nodes")?;
+            for _ in 0..n {
+                let name = self.source.size()?;
+                self.names.push(name, self.source.place())?;
+            }
+            for _ in 0..n {
+                self.points.push(self.source.point()?);
+                (0..n_parameters).try_for_each(|_| self.source.number().map(drop))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn elements_2(&mut self) -> Result<(), MeshError> {
+        let mut n_left = self.source.text_count("elements")?;
+        self.source.begin_numbers();
+        while n_left > 0 {
+            // In text an element says its number first, in binary a block says how many elements it has.
+            let (kind, n) = if self.source.is_text() {
+                self.source.int()?;
+                (self.element_type()?, 1)
+            } else {
+                let kind = self.element_type()?;
+                let n = self.source.int()?;
+                (kind, self.source.checked(n, INT_BYTES, "elements")?)
+            };
+            let n_tags = self.source.int()?;
+            let n_tags = self.source.checked(n_tags, 2, "tags")?;
+            if n == 0 || n > n_left {
+                return Err(MeshError::Unexpected {
+                    place: self.source.place(),
+                    expected: "a block of at least one element and no more than are left",
+                    found: n.to_string(),
+                });
+            }
+            for _ in 0..n {
+                if !self.source.is_text() {
+                    self.source.int()?;
+                }
+                (0..n_tags).try_for_each(|_| self.source.int().map(drop))?;
+                self.element(kind)?;
+            }
+            n_left -= n;
+        }
+        Ok(())
+    }
+
+    fn elements_4(&mut self) -> Result<(), MeshError> {
+        self.source.begin_numbers();
+        let n_blocks = self.source.count(3 * INT_BYTES, "blocks")?;
+        (0..3).try_for_each(|_| self.source.size().map(drop))?;
+        for _ in 0..n_blocks {
+            (0..2).try_for_each(|_| self.source.int().map(drop))?;
+            let kind = self.element_type()?;
+            for _ in 0..self.source.count(2 * INT_BYTES, "elements")? {
+                self.source.size()?;
+                self.element(kind)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn element_type(&mut self) -> Result<ElementType, MeshError> {
+        let number = self.source.int()?;
+        ElementType::new(number, self.source.place())
+    }
+
+    fn element(&mut self, element: ElementType) -> Result<(), MeshError> {
+        let place = self.source.place();
+        let mut nodes = [0; 64];
+        let mut n = 0;
+        let mut n_read = 0;
+        while let Some(name) = self.node_name(element, n_read)? {
+            n_read += 1;
+            if element.kind != CellKind::Flat && n < nodes.len() {
+                nodes[n] = self.names.find(name, place)?;
+                n += 1;
+            }
+        }
+        self.cells.push(element.kind, &nodes[..n], self.names.len(), place, &mut self.report)
+    }
+
+    /// The next node of an element: in text up to the end of its line, in binary as many as its type has.
+    fn node_name(&mut self, element: ElementType, n_read: usize) -> Result<Option<i64>, MeshError> {
+        if self.source.is_text() {
+            return self.source.integer_in_line("a node number");
+        }
+        if n_read == element.n_nodes {
+            return Ok(None);
+        }
+        let name = if self.is_version_4 { self.source.size() } else { self.source.int() };
+        name.map(Some)
+    }
+
+    /// String tags, real tags, whole tags (the time step, components, values), then number and value.
+    fn node_data(&mut self) -> Result<(), MeshError> {
+        let n_strings = self.source.text_count("string tags")?;
+        let mut name = String::new();
+        for i in 0..n_strings {
+            let line = self.source.next_line();
+            if i == 0 {
+                name = line.trim_matches('"').to_owned();
+            }
+        }
+        let n_reals = self.source.text_count("real tags")?;
+        (0..n_reals).try_for_each(|_| self.source.text_number().map(drop))?;
+        let n_integers = self.source.text_count("whole tags")?;
+        let tags: Vec<i64> = (0..n_integers).map(|_| self.source.text_integer()).collect::<Result<_, _>>()?;
+        let shape = (tags.get(1), tags.get(2));
+        let (Some(&n_components @ 1..=9), Some(&n_values)) = shape else {
+            return Err(self.source.unexpected("the number of components and of values", None));
+        };
+        let n_components = usize::try_from(n_components).unwrap_or(1);
+        let n_points = self.points.len();
+        // Where there are fewer values than nodes the field is of no use, and nothing is allocated for it: a file may hold any
+        // number of such.
+        let is_kept = usize::try_from(n_values).is_ok_and(|n_values| n_values >= n_points);
+        let mut values = vec![0.0_f64; if is_kept { n_components * n_points } else { 0 }];
+        let mut is_given = vec![false; if is_kept { n_points } else { 0 }];
+        self.source.begin_numbers();
+        for _ in 0..n_values {
+            let node = self.source.int()?;
+            let node = self.names.find(node, self.source.place())? as usize;
+            for component in 0..n_components {
+                let value = self.source.number()?;
+                if is_kept {
+                    values[n_components * node + component] = value;
+                    is_given[node] = true;
+                }
+            }
+        }
+        let n_given = is_given.iter().filter(|&&is_given| is_given).count();
+        if !is_kept || n_given < n_points {
+            let found = if is_kept { n_given as u64 } else { u64::try_from(n_values).unwrap_or(0) };
+            self.report.warnings.push(VolumeWarning::FieldLength { name, found, expected: n_points as u64 });
+            return Ok(());
+        }
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let numbers = Numbers { number: NumberType::Kept(ScalarType::F64), bytes };
+        let n_components = u32::try_from(n_components).unwrap_or(0);
+        self.fields.push(&name, n_components, numbers, self.points.len(), &mut self.report);
+        Ok(())
+    }
+
+    /// Skips a section up to its end.
+    fn skip(&mut self, word: &[u8]) {
+        let end = [b"$End", &word[1..]].concat();
+        if !matches!(word, b"$PhysicalNames" | b"$Entities" | b"$PartitionedEntities" | b"$Comments") {
+            let name = String::from_utf8_lossy(&word[1..]).into_owned();
+            self.report.warnings.push(VolumeWarning::DataIgnored { kind: "section", name });
+        }
+        self.source.pass(&end);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: [[f64; 3]; 5] =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.5]];
+    const TETRAHEDRA: [[u8; 4]; 2] = [[1, 2, 3, 4], [2, 3, 4, 5]];
+
+    /// How a binary file writes its numbers.
+    #[derive(Clone, Copy)]
+    struct Layout {
+        is_big_endian: bool,
+        size_bytes: usize,
+    }
+
+    const LAYOUTS: [Layout; 4] = [
+        Layout { is_big_endian: false, size_bytes: 8 },
+        Layout { is_big_endian: true, size_bytes: 8 },
+        Layout { is_big_endian: false, size_bytes: 4 },
+        Layout { is_big_endian: true, size_bytes: 4 },
+    ];
+
+    impl Layout {
+        fn ordered(self, mut bytes: Vec<u8>) -> Vec<u8> {
+            if self.is_big_endian {
+                bytes.reverse();
+            }
+            bytes
+        }
+
+        fn ints(self, values: &[u8]) -> Vec<u8> {
+            values.iter().flat_map(|&value| self.ordered(i32::from(value).to_le_bytes().to_vec())).collect()
+        }
+
+        fn sizes(self, values: &[u8]) -> Vec<u8> {
+            let size = |&value: &u8| self.ordered(u64::from(value).to_le_bytes()[..self.size_bytes].to_vec());
+            values.iter().flat_map(size).collect()
+        }
+
+        fn numbers(self, values: &[f64]) -> Vec<u8> {
+            values.iter().flat_map(|value| self.ordered(value.to_le_bytes().to_vec())).collect()
+        }
+
+        fn header(self, version: &str) -> Vec<u8> {
+            let start = format!("$MeshFormat\n{version} 1 {}\n", self.size_bytes).into_bytes();
+            [start, self.ints(&[1]), b"\n$EndMeshFormat\n".to_vec()].concat()
+        }
+
+        fn values(self) -> Vec<u8> {
+            let value = |node: u8| [self.ints(&[node]), self.numbers(&[node.into()])].concat();
+            let start = b"$NodeData\n1\n\"heat\"\n1\n0.0\n3\n0\n1\n5\n".to_vec();
+            [start, (1..6).flat_map(value).collect(), b"\n$EndNodeData\n".to_vec()].concat()
+        }
+
+        fn version_2(self) -> Vec<u8> {
+            let mut file = [self.header("2.2"), b"$Nodes\n5\n".to_vec()].concat();
+            for (name, point) in (1..).zip(POINTS) {
+                file.extend([self.ints(&[name]), self.numbers(&point)].concat());
+            }
+            file.extend(b"\n$EndNodes\n$Elements\n2\n");
+            file.extend(self.ints(&[4, 2, 2]));
+            for (name, nodes) in (1..).zip(TETRAHEDRA) {
+                file.extend([self.ints(&[name, 0, 0]), self.ints(&nodes)].concat());
+            }
+            [file, b"\n$EndElements\n".to_vec(), self.values()].concat()
+        }
+
+        fn version_4(self) -> Vec<u8> {
+            let mut file = [self.header("4.1"), b"$Nodes\n".to_vec()].concat();
+            file.extend(
+                [self.sizes(&[1, 5, 1, 5]), self.ints(&[3, 0, 0]), self.sizes(&[5, 1, 2, 3, 4, 5])].concat(),
+            );
+            file.extend(self.numbers(POINTS.as_flattened()));
+            file.extend(b"\n$EndNodes\n$Elements\n");
+            file.extend([self.sizes(&[1, 2, 1, 2]), self.ints(&[3, 0, 4]), self.sizes(&[2])].concat());
+            for (name, nodes) in (1..).zip(TETRAHEDRA) {
+                file.extend([self.sizes(&[name]), self.sizes(&nodes)].concat());
+            }
+            [file, b"\n$EndElements\n".to_vec(), self.values()].concat()
+        }
+    }
+
+    #[test]
+    fn samples_are_what_another_program_writes() {
+        // Of the files that meshio 5.3.5 writes for this mesh, as `gmsh22` and as `gmsh`.
+        let layout = LAYOUTS[0];
+        assert_eq!(xxhash_rust::xxh3::xxh3_64(&layout.version_2()), 0x3ab6_93c4_2271_b8c8);
+        assert_eq!(xxhash_rust::xxh3::xxh3_64(&layout.version_4()), 0x9e1a_745e_6f82_85b3);
+    }
+
+    #[test]
+    fn every_layout_gives_the_same_two_tetrahedra() {
+        for layout in LAYOUTS {
+            let files = [(layout.size_bytes == 8).then(|| layout.version_2()), Some(layout.version_4())];
+            for file in files.into_iter().flatten() {
+                let (mesh, report) = read(&file).unwrap();
+                assert_eq!(mesh.tetrahedra, [[0, 1, 2, 3], [1, 2, 3, 4]]);
+                assert_eq!(mesh.positions[4], [1.0, 1.0, 0.5]);
+                assert_eq!(mesh.attributes[0].values().collect::<Vec<_>>(), [1.0, 2.0, 3.0, 4.0, 5.0]);
+                assert_eq!((report.n_cells_ignored, report.warnings.len()), (0, 0));
+            }
+        }
+    }
+
+    #[test]
+    fn binary_sections_that_are_left_out_are_passed() {
+        let layout = LAYOUTS[0];
+        let whole = layout.version_4();
+        let at = layout.header("4.1").len();
+        let section =
+            [b"$Entities\n".to_vec(), layout.sizes(&[0, 0, 0, 1]), b"\n$EndEntities\n".to_vec()].concat();
+        let file = [&whole[..at], &section, &whole[at..]].concat();
+        assert_eq!(read(&file).unwrap(), read(&whole).unwrap());
+    }
+
+    #[test]
+    fn a_file_cut_anywhere_or_changed_anywhere_ends_in_an_answer() {
+        for bytes in [LAYOUTS[0].version_2(), LAYOUTS[3].version_4()] {
+            let n_needed = bytes.len() - LAYOUTS[0].values().len();
+            for end in 0..bytes.len() {
+                assert!(
+                    read(&bytes[..end]).is_err() || end > n_needed - b"\n$EndElements\n".len() - 1,
+                    "{end}"
+                );
+            }
+            for at in 0..bytes.len() {
+                for flipped in [0xFF, 0x01, 0x80] {
+                    let mut changed = bytes.clone();
+                    changed[at] ^= flipped;
+                    let _ = read(&changed);
+                }
+            }
+        }
+    }
+}
