@@ -11,6 +11,10 @@ use certified::{Certified, Transfer};
 use covered::Covered;
 use estimate::Estimate;
 
+/// How many times the limit an error is followed up: what a removal needs is then known well enough for the limits to come, and
+/// farther off it does not matter yet.
+pub const REACH: f64 = 2.0;
+
 /// A star about to be replaced by a filling.
 #[derive(Clone, Copy, Debug)]
 pub struct Replacement<'a> {
@@ -41,25 +45,9 @@ pub enum Change {
 }
 
 impl GlobalError {
-    /// Errors of the replacement, or lower bounds of them once one is above its limit. `covered` holds what is mapped into the
-    /// hole where the error is certified.
-    pub fn errors(
-        &self,
-        replacement: Replacement<'_>,
-        covered: &Covered,
-        limits: Limits,
-        transfer: &mut Transfer,
-    ) -> Errors {
-        match self {
-            Self::Certified(certified) => {
-                Errors { local: 0.0, global: certified.bound(replacement, covered, limits.global, transfer) }
-            }
-            Self::Estimate(estimate) => estimate.errors(replacement, limits),
-        }
-    }
-
-    /// What the replacement changes, found without changing it, and its errors; only the errors where they are above the
-    /// limits.
+    /// What the replacement changes, found without changing it, and its errors; where they are above the limits only the errors,
+    /// or lower bounds of them above [`REACH`] times the limits. `covered` holds what is mapped into the hole where the error is
+    /// certified.
     pub fn change(
         &self,
         replacement: Replacement<'_>,
@@ -74,7 +62,7 @@ impl GlobalError {
                 found.map(|(global, change)| (errors(global), Change::Certified(change))).map_err(errors)
             }
             Self::Estimate(estimate) => {
-                let errors = estimate.errors(replacement, limits);
+                let errors = estimate.errors(replacement, limits.scaled(REACH));
                 let is_within = errors.within(limits);
                 if is_within {
                     Ok((errors, Change::Estimate(estimate.change(replacement))))
@@ -122,6 +110,11 @@ pub struct Limits {
 impl Limits {
     /// No limit.
     pub const NONE: Self = Self { local: f64::INFINITY, global: f64::INFINITY };
+
+    /// Both limits times a factor.
+    fn scaled(self, factor: f64) -> Self {
+        Self { local: self.local * factor, global: self.global * factor }
+    }
 }
 
 /// Errors that a removal would make, or lower bounds of them once one is above its limit.

@@ -89,8 +89,8 @@ impl Certified {
         transfer.displacement(Removal { certified: self, replacement, covered }, limit) + self.slack
     }
 
-    /// What the replacement changes in the map, and the bound; or a bound above `limit`. O(vertices and edges mapped into the
-    /// star).
+    /// What the replacement changes in the map, and the bound; or the bound alone where it is above `limit`, or some value above
+    /// [`super::REACH`] times the limit if it is above that. O(vertices and edges mapped into the star).
     pub fn change(
         &self,
         replacement: Replacement<'_>,

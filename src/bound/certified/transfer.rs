@@ -4,7 +4,7 @@ use super::NOT_ON_RIM;
 use super::chains::Portion;
 use super::removal::Removal;
 use super::route::{Destinations, Route};
-use crate::bound::Replacement;
+use crate::bound::{REACH, Replacement};
 use crate::geometry::distance::point_segment_distance_sq;
 
 /// Buffers of the transfer, one per thread.
@@ -53,11 +53,12 @@ impl Transfer {
         self.walk(removal, limit * limit, |_, _| ()).sqrt()
     }
 
-    /// What the removal changes, and the largest displacement; or, where that is above `limit`, the first one found.
+    /// What the removal changes, and the largest displacement; or that alone where it is above `limit`, or the first one found above
+    /// [`REACH`] times the limit.
     pub(super) fn change(&mut self, removal: Removal<'_>, limit: f64) -> Result<(f64, Change), f64> {
         let mut change = Change { assignments: vec![], chains: vec![], portions: vec![], through: vec![] };
         let limit_sq = limit * limit;
-        let largest_sq = self.walk(removal, limit_sq, |edge, portions| {
+        let largest_sq = self.walk(removal, REACH * REACH * limit_sq, |edge, portions| {
             removal.shorten(edge, portions);
             change.add_chain(removal, edge, portions);
         });

@@ -1,4 +1,4 @@
-//! One vertex as a candidate for removal: its hole, the filling, and the errors that would follow.
+//! One vertex as a candidate for removal: its hole and the filling.
 
 use super::classify::{Class, classify};
 use super::fit::{Fitting, fit};
@@ -8,7 +8,7 @@ use crate::bound::certified::images::Image;
 use crate::bound::certified::{Certified, Transfer};
 use crate::bound::covered::Covered;
 use crate::bound::estimate::Estimate;
-use crate::bound::{Errors, GlobalError, Limits, Replacement};
+use crate::bound::{Errors, GlobalError, Limits};
 use crate::mesh::{Filling, Hole, NoHole, Seams, Surface};
 
 /// All that a candidate is judged by.
@@ -26,11 +26,9 @@ pub struct Situation<'a> {
     pub aspect_loss: f64,
 }
 
-/// What became of a candidate.
+/// Why a candidate stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// It can be removed, with these errors.
-    Removable(Errors),
     /// Not under these limits: its errors are at least these.
     Above(Errors),
     /// Not while its star stays as it is.
@@ -42,7 +40,7 @@ pub enum Verdict {
 pub struct Scratch {
     /// The candidate's hole.
     pub hole: Hole,
-    /// Its filling, after [`Verdict::Removable`].
+    /// Its filling.
     pub filling: Filling,
     polygons: Polygons,
     /// Input vertices over the hole.
@@ -51,17 +49,6 @@ pub struct Scratch {
     pub transfer: Transfer,
     /// What is mapped onto the star of a vertex that may move.
     pub images: Vec<Image>,
-}
-
-/// Judges the removal of `v` under `limits`.
-pub fn judge(situation: Situation<'_>, v: u32, limits: Limits, scratch: &mut Scratch) -> Verdict {
-    if let Err(verdict) = fill(situation, v, limits, scratch) {
-        return verdict;
-    }
-    let Scratch { hole, filling, covered, transfer, .. } = scratch;
-    let replacement = Replacement { surface: situation.surface, hole, filling };
-    let errors = situation.error.errors(replacement, covered, limits, transfer);
-    if errors.within(limits) { Verdict::Removable(errors) } else { Verdict::Above(errors) }
 }
 
 /// Leaves hole and filling of `v` in `scratch`, or tells why they need not be looked at.

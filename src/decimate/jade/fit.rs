@@ -9,14 +9,11 @@ use super::classify::Class;
 use super::optimal::triangulate_optimally;
 use super::triangulate::{Polygons, collect_part, ring_index};
 use super::validity::{WORST_ASPECT, aspect, worst_star_aspect};
+use crate::bound::REACH;
 use crate::bound::covered::{Covered, MAX_CORNERS, Over};
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::{Filling, Hole, Surface};
-
-/// How many times the limit, squared, a distance is followed up: what a candidate that failed needs is then known well enough
-/// for the next limit, and farther off it does not matter.
-const CUTOFF: f64 = 2.0;
 
 /// A hole to be filled.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +31,8 @@ pub struct Fitting<'a> {
 }
 
 /// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to the points
-/// covered. Returns the largest distance among points and the triangles they lie over, squared, or a lower bound of it that
-/// is above the limit; `None` where there is no such filling or the hole is too large.
+/// covered. Returns the largest distance among points and the triangles they lie over, squared, or a lower bound of it above
+/// [`REACH`] times the limit; `None` where there is no such filling or the hole is too large.
 pub fn fit(fitting: Fitting<'_>, polygons: &mut Polygons, filling: &mut Filling) -> Option<f64> {
     let Fitting { surface, hole, covered, limit_sq, .. } = fitting;
     let is_tetrahedron = hole.closed && hole.n_ring() == 3 && surface.has_triangle(triple(hole));
@@ -73,7 +70,7 @@ fn fit_around(
         if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
             return f64::INFINITY;
         }
-        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff.min(CUTOFF * limit_sq))
+        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff.min(REACH * REACH * limit_sq))
     };
     let (from, to, is_split) = match class {
         Class::InteriorEdge([from, to]) => (from, to, true),

@@ -1,6 +1,6 @@
 //! One removal: planned in parallel with others, carried out in turn.
 
-use super::candidate::{Scratch, Situation, fill};
+use super::candidate::{Scratch, Situation, Verdict, fill};
 use super::decimation::{Decimation, named_corners};
 use crate::bound::{Change, GlobalError, Limits, Replacement};
 use crate::mesh::{Filling, Hole, Seams, Surface};
@@ -15,21 +15,19 @@ pub struct Plan {
     change: Change,
 }
 
-/// Plans the removal of `v`, which was found removable with a global error of at most `known`, if that still holds: a
-/// removal that has become worse is not to go before others that are better by now.
+/// Plans the removal of `v` under `limits`, or tells what it would need.
 pub fn plan(
     situation: Situation<'_>,
     v: u32,
     limits: Limits,
-    known: f64,
     scratch: &mut Scratch,
-) -> Option<Plan> {
-    fill(situation, v, limits, scratch).ok()?;
+) -> Result<Plan, Verdict> {
+    fill(situation, v, limits, scratch)?;
     let Scratch { hole, filling, covered, transfer, .. } = scratch;
     let replacement = Replacement { surface: situation.surface, hole, filling };
-    let limits = Limits { global: known, ..limits };
-    let (errors, change) = situation.error.change(replacement, covered, limits, transfer).ok()?;
-    Some(Plan { hole: hole.clone(), filling: filling.clone(), error: errors.global, change })
+    let (errors, change) =
+        situation.error.change(replacement, covered, limits, transfer).map_err(Verdict::Above)?;
+    Ok(Plan { hole: hole.clone(), filling: filling.clone(), error: errors.global, change })
 }
 
 impl Plan {

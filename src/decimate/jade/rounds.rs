@@ -1,6 +1,10 @@
 //! The driver: iterations under rising limits, and in each of them rounds over an independent set.
+//!
+//! A heap would need the error of every neighbour again after every removal. Here what was last found of a vertex stands until
+//! its turn comes, however much its star has changed since: it only decides whose turn it is. The ceilings rise so finely that
+//! removals go nearly in the order of their errors all the same, and a vertex is judged as often as it is tried.
 
-use super::candidate::{Verdict, judge};
+use super::candidate::Verdict;
 use super::decimation::Decimation;
 use super::placement;
 use super::removal::{Plan, plan};
@@ -14,31 +18,29 @@ use rayon::prelude::*;
 /// thousands of input vertices each.
 const CHUNK: usize = 32;
 
-/// Candidates whose verdicts are kept at a time.
-const PART: usize = 8192;
-
 /// Removals that are planned before the first of them is carried out.
 const BATCH: usize = 512;
 
-/// What is known of each vertex: the local limit below which it can certainly not be removed.
+/// A vertex whose star changed is tried again within an iteration, once nothing else is left, if it needed no more than this
+/// many times the limit before.
+const RETRY: f64 = 1.3;
+
+/// What was last found of each vertex.
 struct Candidates {
-    /// 0 when nothing is known, infinite when it is impossible or the vertex is gone.
+    /// The local limit that would have admitted it, or less: 0 when nothing is known, infinite when it was impossible or the
+    /// vertex is gone.
     needed: Vec<f32>,
-    /// Global error, once it was found removable with its present star.
-    removable: Vec<f32>,
+    /// The global error of its removal, or less where it was above the limit; 0 when nothing is known.
+    found: Vec<f32>,
     /// Last round in which the vertex or a neighbour of it was picked.
     picked: Vec<u32>,
     /// Vertices that may still be removed.
     open: Vec<u32>,
-    /// Removable vertices above the ceiling.
+    /// Vertices below the limits of this iteration and above the ceiling.
     waiting: Vec<u32>,
-    /// Vertices that were above the limit before their star changed. Most still are: they are judged when nothing else is left,
-    /// and so once for many changes.
-    deferred: Vec<u32>,
+    /// Vertices above the limits of this iteration whose star has changed since they were tried.
+    changed: Vec<u32>,
 }
-
-/// Marks a vertex that has not been found removable.
-const UNKNOWN: f32 = f32::INFINITY;
 
 /// Removes vertices until the limits end, or nothing is left to remove, or `go_on` says stop; false in that case.
 pub fn run(
@@ -50,19 +52,23 @@ pub fn run(
     let mut round = 0;
     let mut limits = thresholds.limits();
     loop {
-        let mut worklist = candidates.below(limits, &decimation.surface);
+        candidates.admit(limits, &decimation.surface);
         for ceiling in thresholds.ceilings() {
-            worklist.extend(candidates.take_waiting());
+            let waiting = std::mem::take(&mut candidates.waiting);
+            let mut worklist = candidates.sort_out(limits, ceiling, waiting);
             while !worklist.is_empty() {
                 if !go_on(decimation) {
                     return false;
                 }
-                judge_all(decimation, &mut candidates, limits, &worklist);
                 round += 1;
-                let picked = pick(decimation, &mut candidates, round, ceiling, worklist);
-                worklist = remove_all(decimation, &mut candidates, limits, &picked);
+                let (picked, others) = pick(&decimation.surface, &mut candidates, round, worklist);
+                let under = Limits { global: ceiling, ..limits };
+                let touched = remove_all(decimation, &mut candidates, under, &picked);
+                let next = candidates.touch(limits, touched).into_iter().chain(picked).chain(others);
+                worklist = candidates.sort_out(limits, ceiling, next.collect());
                 if worklist.is_empty() && ceiling >= limits.global {
-                    worklist = candidates.take_deferred();
+                    let retry = if thresholds.is_last() { f64::INFINITY } else { RETRY };
+                    worklist = candidates.take_changed(retry * limits.local);
                 }
             }
         }
@@ -82,20 +88,20 @@ impl Candidates {
     fn new(n_vertices: usize) -> Self {
         Self {
             needed: vec![0.0; n_vertices],
-            removable: vec![UNKNOWN; n_vertices],
+            found: vec![0.0; n_vertices],
             picked: vec![0; n_vertices],
             open: (0..).take(n_vertices).collect(),
             waiting: vec![],
-            deferred: vec![],
+            changed: vec![],
         }
     }
 
-    /// Vertices that the limits may admit, in ascending order. Drops those that are gone.
-    fn below(&mut self, limits: Limits, surface: &Surface) -> Vec<u32> {
+    /// Lets all wait that the limits may admit. Drops vertices that are gone.
+    fn admit(&mut self, limits: Limits, surface: &Surface) {
         self.open.retain(|&v| !surface.star(v).is_empty());
         let needed = &self.needed;
-        let limit = limits.local;
-        self.open.iter().copied().filter(|&v| f64::from(needed[v as usize]) <= limit).collect()
+        let is_below = |v: &u32| f64::from(needed[*v as usize]) <= limits.local;
+        self.waiting = self.open.iter().copied().filter(is_below).collect();
     }
 
     /// The least local limit that could admit anything.
@@ -112,48 +118,60 @@ impl Candidates {
         }
     }
 
-    /// Those that wait and whose star is as it was.
-    fn take_waiting(&mut self) -> Vec<u32> {
-        let mut waiting = sorted(std::mem::take(&mut self.waiting));
-        waiting.retain(|&v| self.is_removable(v));
-        waiting
-    }
-
-    /// Those that were put off, with nothing known of them.
-    fn take_deferred(&mut self) -> Vec<u32> {
-        let mut deferred = sorted(std::mem::take(&mut self.deferred));
-        deferred.retain(|&v| self.needed[v as usize].is_finite());
-        deferred.iter().for_each(|&v| self.forget(v));
-        deferred
-    }
-
-    /// Takes note that the stars of `touched` have changed; gives those to be judged next.
-    fn touch(&mut self, limits: Limits, touched: Vec<u32>) -> Vec<u32> {
-        let mut next = sorted(touched);
-        next.retain(|&v| {
+    /// Those above the limits whose star changed since they were tried, as far as they needed no more than `most`; with nothing
+    /// known of them.
+    fn take_changed(&mut self, most: f64) -> Vec<u32> {
+        let mut changed = sorted(std::mem::take(&mut self.changed));
+        changed.retain(|&v| {
             let needed = self.needed[v as usize];
+            needed.is_finite() && f64::from(needed) <= most
+        });
+        changed.iter().for_each(|&v| self.forget(v));
+        changed
+    }
+
+    /// Takes note that the stars of `touched` have changed; gives those that may be tried under these limits.
+    fn touch(&mut self, limits: Limits, touched: Vec<u32>) -> Vec<u32> {
+        let mut touched = sorted(touched);
+        touched.retain(|&v| {
+            let needed = self.needed[v as usize];
+            if needed.is_infinite() {
+                self.forget(v);
+            }
             let is_above = needed.is_finite() && f64::from(needed) > limits.local;
             if is_above {
-                self.deferred.push(v);
+                self.changed.push(v);
             }
             !is_above
         });
-        next.iter().for_each(|&v| self.forget(v));
+        touched
+    }
+
+    /// Those of the given vertices below the ceiling, each once, in ascending order. Those above it wait, or are left to a later
+    /// iteration.
+    fn sort_out(&mut self, limits: Limits, ceiling: f64, vertices: Vec<u32>) -> Vec<u32> {
+        let mut next = sorted(vertices);
+        next.retain(|&v| f64::from(self.needed[v as usize]) <= limits.local);
+        let found = &self.found;
+        self.waiting.extend(next.extract_if(.., |v| f64::from(found[*v as usize]) > ceiling));
         next
     }
 
-    fn is_removable(&self, v: u32) -> bool {
-        self.removable[v as usize] < UNKNOWN
+    /// Takes note of what a vertex needs.
+    fn set_verdict(&mut self, v: u32, verdict: Verdict, c2: f64) {
+        let (needed, found) = match verdict {
+            Verdict::Above(errors) => {
+                (round_up(errors.local.max(errors.global / c2)), round_up(errors.global))
+            }
+            Verdict::Impossible => (f32::INFINITY, 0.0),
+        };
+        self.needed[v as usize] = needed;
+        self.found[v as usize] = found;
     }
 
     fn forget(&mut self, v: u32) {
         self.needed[v as usize] = 0.0;
-        self.removable[v as usize] = UNKNOWN;
-    }
-
-    fn close(&mut self, v: u32) {
-        self.needed[v as usize] = f32::INFINITY;
-        self.removable[v as usize] = UNKNOWN;
+        self.found[v as usize] = 0.0;
     }
 }
 
@@ -164,62 +182,29 @@ fn sorted(mut vertices: Vec<u32>) -> Vec<u32> {
     vertices
 }
 
-/// Judges every vertex of the worklist of which nothing is known, in parallel, a part at a time so that verdicts take little
-/// memory.
-fn judge_all(decimation: &Decimation, candidates: &mut Candidates, limits: Limits, worklist: &[u32]) {
-    let situation = decimation.situation();
-    let judge_chunk = |chunk: &[u32]| {
-        let mut scratch = decimation.workers.scratch();
-        chunk.iter().map(|&v| judge(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
-    };
-    let unknown: Vec<u32> = worklist.iter().copied().filter(|&v| !candidates.is_removable(v)).collect();
-    for part in unknown.chunks(PART) {
-        let verdicts: Vec<Verdict> =
-            part.par_chunks(chunk_len(part.len())).flat_map_iter(judge_chunk).collect();
-        for (&v, verdict) in part.iter().zip(verdicts) {
-            let v = v as usize;
-            (candidates.needed[v], candidates.removable[v]) = match verdict {
-                Verdict::Removable(errors) => (0.0, round_up(errors.global)),
-                Verdict::Above(errors) => {
-                    (round_up(errors.local.max(errors.global / decimation.c2)), UNKNOWN)
-                }
-                Verdict::Impossible => (f32::INFINITY, UNKNOWN),
-            };
-        }
-    }
-}
-
-/// An independent set of vertices removable below the ceiling, no two of them neighbours: cheapest first, ties to the lower
-/// vertex. Those above the ceiling wait.
+/// Parts the worklist into an independent set, no two of them neighbours, and the others: cheapest first, as far as is known, ties
+/// to the lower vertex.
 fn pick(
-    decimation: &Decimation,
+    surface: &Surface,
     candidates: &mut Candidates,
     round: u32,
-    ceiling: f64,
-    worklist: Vec<u32>,
-) -> Vec<u32> {
-    let mut ranked = worklist;
-    ranked.retain(|&v| candidates.is_removable(v));
-    let is_below = |v: u32| f64::from(candidates.removable[v as usize]) <= ceiling;
-    candidates.waiting.extend(ranked.iter().copied().filter(|&v| !is_below(v)));
-    ranked.retain(|&v| is_below(v));
-    ranked.par_sort_unstable_by(|&a, &b| {
-        let error = |v: u32| candidates.removable[v as usize];
-        error(a).total_cmp(&error(b)).then(a.cmp(&b))
-    });
-    ranked.retain(|&v| {
-        let is_free = candidates.picked[v as usize] != round;
+    mut worklist: Vec<u32>,
+) -> (Vec<u32>, Vec<u32>) {
+    let Candidates { found, picked, .. } = candidates;
+    worklist.par_sort_unstable_by(|&a, &b| found[a as usize].total_cmp(&found[b as usize]).then(a.cmp(&b)));
+    worklist.into_iter().partition(|&v| {
+        let is_free = picked[v as usize] != round;
         if is_free {
-            for &slot in decimation.surface.star(v) {
-                decimation.surface.corners(slot).iter().for_each(|&r| candidates.picked[r as usize] = round);
+            for &slot in surface.star(v) {
+                surface.corners(slot).iter().for_each(|&r| picked[r as usize] = round);
             }
         }
         is_free
-    });
-    ranked
+    })
 }
 
-/// Removes the picked vertices, one step each, and returns the vertices to be judged anew, in ascending order.
+/// Removes those of the picked vertices that are within the limits, one step each, and returns the vertices whose stars changed;
+/// those may repeat.
 ///
 /// Plans are made in parallel, a batch at a time so that they never take much memory, and carried out in turn.
 fn remove_all(
@@ -231,41 +216,35 @@ fn remove_all(
     let mut touched = vec![];
     for batch in picked.chunks(BATCH) {
         decimation.error.compact();
-        for (&v, planned) in batch.iter().zip(plan_all(decimation, candidates, limits, batch)) {
+        for (&v, planned) in batch.iter().zip(plan_all(decimation, limits, batch)) {
             let is_current = |plan: &Plan| plan.is_current(&decimation.surface, &decimation.error);
-            let plan = match planned {
-                Some(plan) if is_current(&plan) => Some(plan),
-                _ => {
-                    let known = candidates.removable[v as usize].into();
-                    plan(decimation.situation(), v, limits, known, &mut decimation.workers.scratch())
+            let planned = match planned {
+                Ok(overtaken) if !is_current(&overtaken) => {
+                    plan(decimation.situation(), v, limits, &mut decimation.workers.scratch())
                 }
+                planned => planned,
             };
-            match plan {
-                Some(plan) => {
+            let verdict = match planned {
+                Ok(plan) => {
                     touched.extend_from_slice(&plan.hole.ring);
                     plan.carry_out(decimation);
-                    candidates.close(v);
+                    Verdict::Impossible
                 }
-                None => touched.push(v),
-            }
+                Err(verdict) => verdict,
+            };
+            candidates.set_verdict(v, verdict, decimation.c2);
         }
     }
     decimation.surface.compact();
-    candidates.touch(limits, touched)
+    touched
 }
 
 /// Plans the removal of every vertex of the batch, in parallel.
-fn plan_all(
-    decimation: &Decimation,
-    candidates: &Candidates,
-    limits: Limits,
-    batch: &[u32],
-) -> Vec<Option<Plan>> {
-    let known = |v: u32| candidates.removable[v as usize].into();
+fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Result<Plan, Verdict>> {
     let situation = decimation.situation();
     let plan_chunk = |chunk: &[u32]| {
         let mut scratch = decimation.workers.scratch();
-        chunk.iter().map(|&v| plan(situation, v, limits, known(v), &mut scratch)).collect::<Vec<_>>()
+        chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
     };
     batch.par_chunks(chunk_len(batch.len())).flat_map_iter(plan_chunk).collect()
 }

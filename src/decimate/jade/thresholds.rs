@@ -14,7 +14,7 @@ use crate::bound::Limits;
 const START: f64 = 0.01;
 
 /// Ceilings per iteration; `docs/builder-roads.md` says what they are worth.
-const CEILINGS: i32 = 4;
+const CEILINGS: i32 = 16;
 
 /// The limits of one iteration after another.
 #[derive(Clone, Copy, Debug)]
@@ -41,16 +41,21 @@ impl Thresholds {
     /// Ceilings that rise in equal factors to the global limit of this iteration, from that of the one before.
     ///
     /// What is below the limit and above the ceiling waits, without being judged again: candidates then go nearly in the order
-    /// of their errors, as if the limits rose four times as finely.
+    /// of their errors, as if the limits rose sixteen times as finely.
     pub fn ceilings(&self) -> impl Iterator<Item = f64> + use<> {
         let (limit, c1) = (self.limits().global, self.c1);
         (1..=CEILINGS).map(move |part| limit * c1.powf(f64::from(part - CEILINGS) / f64::from(CEILINGS)))
     }
 
+    /// Whether this iteration's limits are those asked for.
+    pub fn is_last(&self) -> bool {
+        self.local >= self.target
+    }
+
     /// Goes on to the first later iteration whose limits could admit a candidate that needs a local limit of
     /// `needed`; `None` when there is no such iteration.
     pub fn advance(&mut self, needed: f64) -> Option<Limits> {
-        if self.local >= self.target || !needed.is_finite() || needed > self.target {
+        if self.is_last() || !needed.is_finite() || needed > self.target {
             return None;
         }
         loop {
