@@ -6,7 +6,7 @@ pub mod covered;
 pub mod estimate;
 pub mod removed;
 
-use crate::mesh::{Filling, Hole, Surface};
+use crate::mesh::{Filling, Hole, Surface, TooMany};
 use certified::{Certified, Transfer};
 use covered::Covered;
 use estimate::Estimate;
@@ -88,7 +88,21 @@ impl GlobalError {
         }
     }
 
-    /// Applies what was found for the replacement of the star of `hole`.
+    /// Whether there is room for a change of the star of `hole`. O(1).
+    ///
+    /// # Errors
+    ///
+    /// What there would be too many of.
+    pub fn check_room(&self, hole: &Hole, change: &Change) -> Result<(), TooMany> {
+        match (self, change) {
+            (Self::Certified(certified), Change::Certified(change)) => {
+                certified.check_room(change, hole.slots.len())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Applies what was found for the replacement of the star of `hole`. There must be [room](Self::check_room) for it.
     pub fn apply(&mut self, hole: &Hole, change: Change) {
         match (self, change) {
             (Self::Certified(certified), Change::Certified(change)) => certified.apply(hole, &change),

@@ -16,7 +16,7 @@ use crate::bound::estimate::{Estimate, Kind};
 use crate::decimate::jade::Placement;
 use crate::decimate::jade::decimation::{Decimation, Workers};
 use crate::decimate::jade::placement::Moves;
-use crate::decimate::jade::rounds::run;
+use crate::decimate::jade::rounds::{Unfinished, run};
 use crate::decimate::jade::thresholds::Thresholds;
 use crate::decimate::progressive::complex::Complex;
 use crate::decimate::progressive::wedges::Wedges;
@@ -197,9 +197,10 @@ fn decimate(
         workers: Workers::new(),
     };
     let thresholds = Thresholds::new(options.max_error, bounding_diagonal(mesh), &options.jade);
-    if !run(&mut decimation, thresholds, go_on) {
-        return Err(BuildError::Interrupted);
-    }
+    run(&mut decimation, thresholds, go_on).map_err(|unfinished| match unfinished {
+        Unfinished::Stopped => BuildError::Interrupted,
+        Unfinished::TooLarge(too_many) => too_many.into(),
+    })?;
     Ok(decimation.finish())
 }
 

@@ -2,13 +2,17 @@
 //!
 //! Ids are `u32`, and so are places in the pools that hold stars, with up to six entries for each triangle and eight for each
 //! tetrahedron between two tidyings. What is accepted leaves room for these, and for as many fusion points as vertices: every
-//! cast of a count or place below relies on it.
+//! cast of a count or place below relies on it. How much the pools of the proof hold depends on how the surface lies, so they are
+//! compared with their limit before each change.
 
 /// Most vertices that are accepted.
 pub const MAX_VERTICES: usize = (u32::MAX / 2) as usize;
 
 /// Most triangles or tetrahedra that are accepted.
 pub const MAX_SIMPLICES: usize = (u32::MAX / 8) as usize;
+
+/// Most entries of a pool whose places are `u32`; the last number stands for no place.
+pub const MAX_PLACES: usize = (u32::MAX - 1) as usize;
 
 /// A count beyond its limit: what is counted, in the plural, how many there are, and the limit.
 pub type TooMany = (&'static str, usize, usize);
@@ -23,6 +27,16 @@ pub fn check_counts(n_vertices: usize, n_simplices: usize) -> Result<(), TooMany
     counts.into_iter().find(|(_, found, limit)| found > limit).map_or(Ok(()), Err)
 }
 
+/// Compares a pool's entries, and those about to be added, with their limit.
+///
+/// # Errors
+///
+/// `what` it holds, and how many there would be.
+pub fn check_places(what: &'static str, n_entries: usize, n_more: usize) -> Result<(), TooMany> {
+    let found = n_entries.saturating_add(n_more);
+    if found > MAX_PLACES { Err((what, found, MAX_PLACES)) } else { Ok(()) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -32,5 +46,15 @@ mod tests {
         assert_eq!(check_counts(MAX_VERTICES, MAX_SIMPLICES), Ok(()));
         assert_eq!(check_counts(MAX_VERTICES + 1, 0), Err(("vertices", MAX_VERTICES + 1, MAX_VERTICES)));
         assert_eq!(check_counts(3, MAX_SIMPLICES + 1), Err(("simplices", MAX_SIMPLICES + 1, MAX_SIMPLICES)));
+    }
+
+    #[test]
+    fn pools_are_filled_up_to_their_limit() {
+        assert_eq!(check_places("portions", MAX_PLACES - 5, 5), Ok(()));
+        assert_eq!(
+            check_places("portions", MAX_PLACES - 5, 6),
+            Err(("portions", MAX_PLACES + 1, MAX_PLACES))
+        );
+        assert_eq!(check_places("portions", 1, usize::MAX), Err(("portions", usize::MAX, MAX_PLACES)));
     }
 }

@@ -19,7 +19,7 @@ mod tetrahedra;
 pub use curve::along_a_curve;
 pub use filling::Filling;
 pub use hole::{Hole, MAX_VALENCE, NoHole};
-pub use limits::{MAX_SIMPLICES, MAX_VERTICES, TooMany, check_counts};
+pub use limits::{MAX_PLACES, MAX_SIMPLICES, MAX_VERTICES, TooMany, check_counts, check_places};
 pub use numbering::Numbering;
 pub use repair::{RepairReport, Repaired, repair};
 pub use seams::Seams;

@@ -57,11 +57,15 @@ impl Chains {
         self.first[edge as usize]
     }
 
+    /// Entries of the pool, gaps included: at most [`MAX_PLACES`](crate::mesh::MAX_PLACES), which whoever sets chains sees to. A chain
+    /// takes one more than it has portions.
+    #[inline]
+    pub fn n_entries(&self) -> usize {
+        self.portions.len()
+    }
+
     /// Replaces the chain of `edge` by `portions`; fewer than two portions need no chain. O(portions).
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "portions are fewer than source edges times slots crossed, far below u32"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "entries are at most MAX_PLACES")]
     pub fn set(&mut self, edge: u32, portions: &[Portion]) {
         if self.has(edge) {
             self.n_used -= self.of(edge).len() + 1;

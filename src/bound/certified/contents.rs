@@ -43,6 +43,13 @@ impl Contents {
         }
     }
 
+    /// Entries of the pool, gaps included: at most [`MAX_PLACES`](crate::mesh::MAX_PLACES), which whoever fills slots sees to. A slot
+    /// takes two more than it has vertices and edges.
+    #[inline]
+    pub fn n_entries(&self) -> usize {
+        self.words.len()
+    }
+
     /// Empties `slot`.
     pub fn clear(&mut self, slot: u32) {
         if self.first[slot as usize] != NONE {
@@ -52,7 +59,7 @@ impl Contents {
     }
 
     /// Fills `slot`, which is empty.
-    #[expect(clippy::cast_possible_truncation, reason = "words are a few per source vertex, far below u32")]
+    #[expect(clippy::cast_possible_truncation, reason = "entries are at most MAX_PLACES")]
     pub fn fill(&mut self, slot: u32, vertices: impl Iterator<Item = u32>, edges: impl Iterator<Item = u32>) {
         let start = self.words.len();
         self.words.extend([0; 2]);

@@ -29,7 +29,7 @@ mod transfer;
 use super::Replacement;
 use super::covered::Covered;
 use crate::geometry::vector::{length, max, min, widen};
-use crate::mesh::{Hole, Surface};
+use crate::mesh::{Hole, Surface, TooMany, check_places};
 use chains::Chains;
 use contents::Contents;
 use removal::Removal;
@@ -112,7 +112,19 @@ impl Certified {
         change.chains.iter().all(|chain| self.chains.version(chain.edge) == chain.replaces)
     }
 
-    /// Carries the map over to the filling.
+    /// Whether the pools have room for `change`, whose hole has at most `n_slots` slots. O(1).
+    ///
+    /// # Errors
+    ///
+    /// What there would be too many of.
+    pub fn check_room(&self, change: &Change, n_slots: usize) -> Result<(), TooMany> {
+        let n_portions = change.portions.len() + change.chains.len();
+        let n_mapped = change.assignments.len() + change.through.len() + 2 * n_slots;
+        check_places("portions of source edges", self.chains.n_entries(), n_portions)?;
+        check_places("vertices and edges mapped into triangles", self.contents.n_entries(), n_mapped)
+    }
+
+    /// Carries the map over to the filling. There must be [room](Self::check_room) for it.
     pub fn apply(&mut self, hole: &Hole, change: &Change) {
         let Change { assignments, chains, portions, through } = change;
         let mut start = 0;

@@ -3,7 +3,7 @@
 use super::candidate::{Scratch, Situation, Verdict, fill};
 use super::decimation::{Decimation, named_corners};
 use crate::bound::{Change, GlobalError, Limits, Replacement};
-use crate::mesh::{Filling, Hole, Seams, Surface};
+use crate::mesh::{Filling, Hole, Seams, Surface, TooMany};
 
 /// All that a removal changes.
 #[derive(Clone, Debug)]
@@ -44,9 +44,14 @@ impl Plan {
     }
 
     /// Carries the plan out: record, errors, mesh, in this order, since each needs the star as it was.
-    pub fn carry_out(self, decimation: &mut Decimation) {
+    ///
+    /// # Errors
+    ///
+    /// When the errors have no room for it; nothing has changed then.
+    pub fn carry_out(self, decimation: &mut Decimation) -> Result<(), TooMany> {
         let Self { hole, filling, error: step_error, change } = self;
         let Decimation { surface, seams, names, error, recorder, .. } = decimation;
+        error.check_room(&hole, &change)?;
         recorder.step(step_error);
         for &slot in &hole.slots {
             recorder.death(slot, named_corners(surface, seams.as_ref(), names, slot));
@@ -61,6 +66,7 @@ impl Plan {
                 seams.set(slot, vertices[i]);
             }
         }
+        Ok(())
     }
 }
 

@@ -11,7 +11,7 @@ use super::removal::{Plan, plan};
 use super::thresholds::Thresholds;
 use crate::bound::Limits;
 use crate::bound::accumulated::round_up;
-use crate::mesh::Surface;
+use crate::mesh::{Surface, TooMany};
 use rayon::prelude::*;
 
 /// Most candidates that one thread takes at a time. Of few candidates it takes fewer: the last ones of a history stand for
@@ -42,12 +42,25 @@ struct Candidates {
     changed: Vec<u32>,
 }
 
-/// Removes vertices until the limits end, or nothing is left to remove, or `go_on` says stop; false in that case.
+/// Why a run ended before there was nothing left to remove.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unfinished {
+    /// `go_on` said stop.
+    Stopped,
+    /// What the proof has to remember has outgrown ids of 32 bits.
+    TooLarge(TooMany),
+}
+
+/// Removes vertices until the limits end, or nothing is left to remove.
+///
+/// # Errors
+///
+/// [`Unfinished`]: `go_on` said stop, or there is no room to go on.
 pub fn run(
     decimation: &mut Decimation,
     mut thresholds: Thresholds,
     go_on: &dyn Fn(&Decimation) -> bool,
-) -> bool {
+) -> Result<(), Unfinished> {
     let mut candidates = Candidates::new(decimation.surface.n_vertices());
     let mut round = 0;
     let mut limits = thresholds.limits();
@@ -58,12 +71,13 @@ pub fn run(
             let mut worklist = candidates.sort_out(limits, ceiling, waiting);
             while !worklist.is_empty() {
                 if !go_on(decimation) {
-                    return false;
+                    return Err(Unfinished::Stopped);
                 }
                 round += 1;
                 let (picked, others) = pick(&decimation.surface, &mut candidates, round, worklist);
                 let under = Limits { global: ceiling, ..limits };
-                let touched = remove_all(decimation, &mut candidates, under, &picked);
+                let touched =
+                    remove_all(decimation, &mut candidates, under, &picked).map_err(Unfinished::TooLarge)?;
                 let next = candidates.touch(limits, touched).into_iter().chain(picked).chain(others);
                 worklist = candidates.sort_out(limits, ceiling, next.collect());
                 if worklist.is_empty() && ceiling >= limits.global {
@@ -79,7 +93,7 @@ pub fn run(
                 continue;
             }
         }
-        let Some(next) = thresholds.advance(candidates.least_needed()) else { return true };
+        let Some(next) = thresholds.advance(candidates.least_needed()) else { return Ok(()) };
         limits = next;
     }
 }
@@ -207,12 +221,16 @@ fn pick(
 /// those may repeat.
 ///
 /// Plans are made in parallel, a batch at a time so that they never take much memory, and carried out in turn.
+///
+/// # Errors
+///
+/// When there is no room for one.
 fn remove_all(
     decimation: &mut Decimation,
     candidates: &mut Candidates,
     limits: Limits,
     picked: &[u32],
-) -> Vec<u32> {
+) -> Result<Vec<u32>, TooMany> {
     let mut touched = vec![];
     for batch in picked.chunks(BATCH) {
         decimation.error.compact();
@@ -227,7 +245,7 @@ fn remove_all(
             let verdict = match planned {
                 Ok(plan) => {
                     touched.extend_from_slice(&plan.hole.ring);
-                    plan.carry_out(decimation);
+                    plan.carry_out(decimation)?;
                     Verdict::Impossible
                 }
                 Err(verdict) => verdict,
@@ -236,7 +254,7 @@ fn remove_all(
         }
     }
     decimation.surface.compact();
-    touched
+    Ok(touched)
 }
 
 /// Plans the removal of every vertex of the batch, in parallel.

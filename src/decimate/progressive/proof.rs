@@ -51,17 +51,22 @@ impl Proof {
         Some(certified.bound(Replacement { surface, hole, filling }, covered, limit, transfer))
     }
 
-    /// Carries the map over to the fan that [`Self::bound`] was asked about last.
-    pub fn carry_out(&mut self) {
+    /// Carries the map over to the fan that [`Self::bound`] was asked about last; false where there is no room for it, and the
+    /// proof ends.
+    pub fn carry_out(&mut self) -> bool {
         let Self { surface, certified, hole, filling, covered, transfer } = self;
         let found =
             certified.change(Replacement { surface, hole, filling }, covered, f64::INFINITY, transfer);
-        let Ok((_, change)) = found else { return };
+        let Ok((_, change)) = found else { return false };
+        if certified.check_room(&change, hole.slots.len()).is_err() {
+            return false;
+        }
         certified.apply(hole, &change);
         certified.compact();
         let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
         surface.replace_star(hole.removed, &hole.slots, &born);
         surface.compact();
+        true
     }
 }
 

@@ -5,6 +5,7 @@ use super::collapse::{Collapse, Contact};
 use super::decimation::Decimation;
 use super::error::vanishes;
 use super::events::{Event, EventKind};
+use super::proof::Proof;
 use super::ring::Ring;
 use super::view::View;
 
@@ -22,9 +23,9 @@ impl Decimation {
         if error > max_error {
             return;
         }
-        match (&mut self.proof, proven) {
-            (Some(proof), Some(_)) => proof.carry_out(),
-            (proof, _) => *proof = None,
+        let is_carried_on = proven.is_some() && self.proof.as_mut().is_some_and(Proof::carry_out);
+        if !is_carried_on {
+            self.proof = None;
         }
         let ring = std::mem::take(&mut self.view.ring);
         self.accumulated.distribute(&ring, distance);
