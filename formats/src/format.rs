@@ -8,6 +8,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::input::read_input;
 use crate::publish::publish;
 use crate::text::{Scanner, Style};
 use crate::{MeshError, ReadReport, TriangleMesh, Warning, gltf, obj, off, ply, stl};
@@ -119,7 +120,7 @@ pub fn read_mesh(path: impl AsRef<Path>) -> Result<(TriangleMesh, ReadReport), M
 }
 
 fn read_file(path: &Path) -> Result<(TriangleMesh, ReadReport), MeshError> {
-    let bytes = std::fs::read(path)?;
+    let bytes = read_input(path)?;
     let extension = MeshFormat::from_path(path);
     let format = MeshFormat::detect(&bytes, extension).ok_or(MeshError::UnknownFormat)?;
     let (mesh, mut report) = read_bytes(&bytes, format, path.parent())?;

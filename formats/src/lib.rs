@@ -2,10 +2,12 @@
 
 mod attributes;
 mod coordinates;
+mod distinct;
 mod error;
 mod faces;
 mod format;
 mod gltf;
+mod input;
 pub mod mesh;
 pub mod neph;
 mod obj;
@@ -21,6 +23,7 @@ mod volume;
 
 pub use error::{MeshError, Place};
 pub use format::{MeshFormat, read_mesh, read_mesh_bytes, write_mesh, write_mesh_to};
+pub use input::read_input;
 pub use mesh::{Attribute, ScalarType, TriangleMesh};
 pub use publish::{PublishError, publish};
 pub use report::{ReadReport, Warning};

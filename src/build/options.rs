@@ -1,7 +1,7 @@
 //! What a build is asked for.
 
 use super::BuildError;
-use crate::decimate::jade::{JadeOptions, Placement};
+use crate::decimate::jade::{JadeOptions, MAX_K, MIN_C1, Placement};
 use crate::decimate::progressive::ProgressiveOptions;
 use serde::{Deserialize, Serialize};
 
@@ -89,8 +89,8 @@ pub(super) fn check_options(options: &BuildOptions) -> Result<(), BuildError> {
         check("max error", "finite and above zero", error, error.is_finite() && error > 0.0)?;
     }
     check("feature angle", "from 0 to 180 degrees", angle, (0.0..=180.0).contains(&angle))?;
-    check("k", "finite and at least 1", k, k.is_finite() && k >= 1.0)?;
-    check("c1", "above 1, at most 16", c1, c1 > 1.0 && c1 <= 16.0)?;
+    check("k", "from 1 to 1e12", k, (1.0..=MAX_K).contains(&k))?;
+    check("c1", "from 1.001 to 16", c1, (MIN_C1..=16.0).contains(&c1))?;
     check("c2", "from 1 to 16", c2, (1.0..=16.0).contains(&c2))?;
     check("aspect loss", "from 0 to 1", aspect_loss, (0.0..=1.0).contains(&aspect_loss))
 }

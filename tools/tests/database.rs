@@ -5,6 +5,7 @@
 mod support;
 
 use serde_json::Value;
+use std::collections::BTreeSet;
 use support::{Workplace, index};
 
 fn manifest(workplace: &Workplace) -> Vec<Value> {
@@ -30,6 +31,65 @@ fn bad_parts_are_listed_and_stop_nobody() {
         assert_eq!(index(line, "coarsest_triangles"), 0);
     }
     workplace.done("verify db/part8.neph");
+}
+
+#[test]
+fn what_is_no_list_of_ours_is_left_alone() {
+    let workplace = Workplace::new();
+    workplace.done("generate cosine --side 8 -o part.ply");
+    std::fs::create_dir(workplace.path("db")).unwrap();
+    workplace.write("db/manifest.jsonl", "dear diary\n");
+    let line = "build part.ply --output-dir db";
+    let failure = workplace.failure(line);
+    assert!(failure.ends_with("something else than the list of a database"), "{failure}");
+    assert_eq!(workplace.read("db/manifest.jsonl"), b"dear diary\n");
+    #[cfg(unix)]
+    {
+        workplace.write("diary", "{dear");
+        std::fs::remove_file(workplace.path("db/manifest.jsonl")).unwrap();
+        std::os::unix::fs::symlink("../diary", workplace.path("db/manifest.jsonl")).unwrap();
+        let failure = workplace.failure(line);
+        assert!(failure.ends_with("manifest.jsonl: is not a regular file"), "{failure}");
+        assert_eq!(workplace.read("diary"), b"{dear");
+    }
+}
+
+#[test]
+fn one_build_at_a_time_works_on_a_database() {
+    let workplace = Workplace::new();
+    workplace.done("generate cosine --side 8 -o part.ply");
+    let line = "build part.ply --output-dir db";
+    workplace.done(line);
+    let list = std::fs::File::open(workplace.path("db/manifest.jsonl")).unwrap();
+    list.lock().unwrap();
+    let failure = workplace.failure(line);
+    assert!(failure.ends_with("is being written by another build"), "{failure}");
+    drop(list);
+    workplace.done(line);
+}
+
+#[test]
+fn no_part_is_replaced_by_a_file_or_shares_one_with_another() {
+    let workplace = Workplace::new();
+    workplace.done("generate cosine --side 8 -o part.ply");
+    std::fs::rename(workplace.path("part.ply"), workplace.path("part.neph")).unwrap();
+    let before = workplace.read("part.neph");
+    let run = workplace.run("build part.neph --output-dir .");
+    assert!(run.status == 1 && run.stderr.contains("is the input"), "{}", run.stderr);
+    assert!(workplace.read("part.neph") == before);
+    // The second names of two equal parts are the first name of a third.
+    for folder in ["a", "b"] {
+        std::fs::create_dir(workplace.path(folder)).unwrap();
+        workplace.write(&format!("{folder}/x.ply"), &before);
+    }
+    workplace.done("build a/x.ply b/x.ply --output-dir db");
+    let lines = manifest(&workplace);
+    let second = lines[1]["output"].as_str().unwrap().strip_prefix("db/").unwrap().replace(".neph", ".ply");
+    workplace.write(&second, &before);
+    workplace.done(&format!("build a/x.ply b/x.ply {second} --output-dir db"));
+    let lines = manifest(&workplace);
+    let outputs: BTreeSet<&str> = lines.iter().map(|line| line["output"].as_str().unwrap()).collect();
+    assert_eq!((lines.len(), outputs.len()), (3, 3), "{outputs:?}");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::fs;
+use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine;
@@ -129,14 +131,20 @@ fn decode_percent(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
+/// The bytes of a regular file in a folder or below it. Links are followed as far as they stay there: an archive can hold a link to
+/// anywhere.
 fn read_below(folder: Option<&Path>, path: &Path) -> Result<Vec<u8>, String> {
+    let unreadable = |error: io::Error| format!("cannot be read: {error}");
     let folder = folder.ok_or("needs a folder to be looked for in")?;
-    let path = folder.join(path);
-    let metadata = std::fs::metadata(&path).map_err(|error| format!("cannot be read: {error}"))?;
-    if !metadata.is_file() {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let target = fs::canonicalize(folder.join(path)).map_err(unreadable)?;
+    if !target.starts_with(fs::canonicalize(folder).map_err(unreadable)?) {
+        return Err("is a link out of the folder".into());
+    }
+    if !fs::metadata(&target).map_err(unreadable)?.is_file() {
         return Err("is not a regular file".into());
     }
-    std::fs::read(&path).map_err(|error| format!("cannot be read: {error}"))
+    fs::read(&target).map_err(unreadable)
 }
 
 #[cfg(test)]
@@ -160,9 +168,9 @@ mod tests {
     fn only_files_below_the_folder_are_read() {
         let folder = tempfile::tempdir().unwrap();
         let inner = folder.path().join("inner");
-        std::fs::create_dir_all(inner.join("a b")).unwrap();
-        std::fs::write(folder.path().join("outside.bin"), [1]).unwrap();
-        std::fs::write(inner.join("a b/c.bin"), [7, 8]).unwrap();
+        fs::create_dir_all(inner.join("a b")).unwrap();
+        fs::write(folder.path().join("outside.bin"), [1]).unwrap();
+        fs::write(inner.join("a b/c.bin"), [7, 8]).unwrap();
         assert_eq!(load("./a%20b//c.bin", 2, Some(&inner)).unwrap().get(0), Some(&[7, 8][..]));
         for uri in [
             "../outside.bin",
@@ -192,10 +200,33 @@ mod tests {
         assert!(matches!(error, MeshError::Truncated { expected: 3, found: 2, .. }));
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_inside_the_folder_only() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let inner = folder.path().join("inner");
+        fs::create_dir_all(inner.join("below")).unwrap();
+        fs::write(folder.path().join("outside.bin"), [1]).unwrap();
+        fs::write(inner.join("below/c.bin"), [7]).unwrap();
+        symlink("below/c.bin", inner.join("good.bin")).unwrap();
+        symlink("../outside.bin", inner.join("bad.bin")).unwrap();
+        symlink("..", inner.join("up")).unwrap();
+        // The folder itself may be reached by a link.
+        symlink(&inner, folder.path().join("door")).unwrap();
+        for folder in [&inner, &folder.path().join("door")] {
+            assert_eq!(load("good.bin", 1, Some(folder)).unwrap().get(0), Some(&[7][..]));
+            for uri in ["bad.bin", "up/outside.bin", "below"] {
+                let error = load(uri, 1, Some(folder)).err().unwrap();
+                assert!(matches!(error, MeshError::Reference { .. }), "{uri}: {error}");
+            }
+        }
+    }
+
     #[test]
     fn a_file_named_by_many_buffers_is_held_once() {
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("a.bin"), [0; 100]).unwrap();
+        fs::write(folder.path().join("a.bin"), [0; 100]).unwrap();
         let buffer = |uri: &str| Buffer { uri: Some(uri.into()), byte_length: 100 };
         let buffers = [buffer("a.bin"), buffer("./a.bin"), buffer("%61.bin")];
         assert_eq!(Buffers::load(&buffers, None, Some(folder.path())).unwrap().n_bytes(), 100);

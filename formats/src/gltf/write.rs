@@ -1,12 +1,12 @@
 //! GLB: one mesh of one primitive, its origin the translation of the only node.
 
-use std::collections::HashSet;
 use std::io::Write;
 
 use serde_json::{Map, Value, json};
 
 use super::names::semantic;
 use crate::coordinates::nearest_f32;
+use crate::distinct::DistinctNames;
 use crate::{Attribute, MeshError, MeshFormat, ScalarType, TriangleMesh};
 
 /// Writes a mesh with all its attributes.
@@ -57,14 +57,14 @@ struct Part {
 
 fn parts(mesh: &TriangleMesh) -> Vec<Part> {
     let mut parts = vec![position_part(mesh)];
-    let mut taken: HashSet<String> = ["POSITION".into()].into();
+    let mut names = DistinctNames::without(&["POSITION"]);
     for attribute in &mesh.attributes {
         for mut part in attribute_parts(attribute) {
-            if let Some(semantic) = &mut part.semantic {
-                while !taken.insert(semantic.clone()) {
-                    *semantic = format!("_{semantic}");
-                }
-            }
+            part.semantic = part.semantic.map(|semantic| {
+                // Only an application's own semantics, which begin so, can have any name.
+                let is_second = !semantic.starts_with('_') && names.is_taken(&semantic);
+                names.take(if is_second { format!("_{semantic}") } else { semantic })
+            });
             parts.push(part);
         }
     }

@@ -1,8 +1,7 @@
 //! Which vertex properties belong together as one attribute, and under which names attributes are written.
 
-use std::collections::{HashMap, HashSet};
-
 use super::header::{Element, PropertyKind};
+use crate::distinct::DistinctNames;
 use crate::{Attribute, ScalarType};
 
 /// Property names that make up an attribute; the first row is the one that is written.
@@ -68,30 +67,13 @@ pub(crate) fn plan_attributes(vertex: &Element, coordinates: [usize; 3]) -> Vec<
 }
 
 /// Property names for the components of all attributes: those of the group where one fits, the attribute's own name for one
-/// component, otherwise the name with the component's number. Names are made free of blanks, as PLY needs them, and distinct by
-/// numbers from 2.
-///
-/// Cost: O(names). A numbered name is taken at most once, and stands in the way of the one name that it numbers.
+/// component, otherwise the name with the component's number. Names are made distinct, and free of blanks, as PLY needs them.
 pub(crate) fn property_names(attributes: &[Attribute]) -> Vec<Vec<String>> {
-    let mut taken: HashSet<String> = ["x", "y", "z"].map(String::from).into();
-    let mut next_number: HashMap<String, usize> = HashMap::new();
+    let mut names = DistinctNames::without(&["x", "y", "z"]);
     let mut free_name = |wanted: String| {
-        let mut name: String =
-            wanted.chars().map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c }).collect();
-        if name.is_empty() {
-            name.push('_');
-        }
-        if taken.insert(name.clone()) {
-            return name;
-        }
-        let number = next_number.entry(name.clone()).or_insert(2);
-        loop {
-            let numbered = format!("{name}_{number}");
-            *number += 1;
-            if taken.insert(numbered.clone()) {
-                return numbered;
-            }
-        }
+        let to_word = |c: char| if c.is_whitespace() || c.is_control() { '_' } else { c };
+        let word: String = wanted.chars().map(to_word).collect();
+        names.take(if word.is_empty() { "_".into() } else { word })
     };
     attributes
         .iter()
@@ -113,7 +95,6 @@ pub(crate) fn property_names(attributes: &[Attribute]) -> Vec<Vec<String>> {
 mod tests {
     use super::*;
     use crate::ply::header::Property;
-    use std::time::Instant;
 
     fn element(properties: &[(&str, ScalarType)]) -> Element {
         let properties = properties
@@ -169,21 +150,5 @@ mod tests {
         ]);
         assert_eq!(names[0], ["red", "green", "blue", "alpha"]);
         assert_eq!(names[1..], [vec!["x_2"], vec!["a_b_0", "a_b_1"], vec!["alpha_2"]]);
-    }
-
-    #[test]
-    fn ten_thousand_attributes_of_one_name_are_numbered_in_one_pass() {
-        let attribute =
-            |name: String| Attribute { name, scalar: ScalarType::U8, n_components: 1, bytes: Vec::new() };
-        // Half of the numbers are taken before the first one is given.
-        let taken = (0..5_000).map(|i| format!("a_{}", 2 * i + 2));
-        let attributes: Vec<Attribute> =
-            taken.chain((0..10_000).map(|_| "a".into())).map(attribute).collect();
-        let start = Instant::now();
-        let names = property_names(&attributes).concat();
-        let seconds = start.elapsed().as_secs_f64();
-        assert_eq!(names.iter().collect::<HashSet<_>>().len(), 15_000);
-        assert_eq!((names[5_001].as_str(), names[14_999].as_str()), ("a_3", "a_15000"));
-        assert!(names.iter().all(|name| name.len() <= 7) && seconds < 2.0, "{seconds} s");
     }
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{VolumeReport, gmsh, medit, meshb, plot3d, tetgen, vtk, vtu};
 use crate::error::Place;
+use crate::input::read_input;
 use crate::publish::publish;
 use crate::{MeshError, TetrahedronMesh};
 
@@ -104,7 +105,7 @@ impl fmt::Display for VolumeFormat {
 pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
     let path = path.as_ref();
     let read = || {
-        let bytes = std::fs::read(path)?;
+        let bytes = read_input(path)?;
         let format = VolumeFormat::detect(&bytes, VolumeFormat::from_path(path))
             .ok_or(MeshError::UnknownVolumeFormat)?;
         if format != VolumeFormat::Tetgen {
@@ -112,7 +113,7 @@ pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, VolumeRep
         }
         let is_node = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("node"));
         let other = path.with_extension(if is_node { "ele" } else { "node" });
-        let other_bytes = std::fs::read(&other).map_err(|error| MeshError::from(error).in_file(&other))?;
+        let other_bytes = read_input(&other).map_err(|error| MeshError::from(error).in_file(&other))?;
         if is_node { tetgen::read(&bytes, &other_bytes) } else { tetgen::read(&other_bytes, &bytes) }
     };
     read().map_err(|error: MeshError| error.in_file(path))
@@ -150,7 +151,7 @@ pub fn read_plot3d(
     grid: impl AsRef<Path>,
     solutions: &[impl AsRef<Path>],
 ) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
-    let read = |path: &Path| std::fs::read(path).map_err(|error| MeshError::from(error).in_file(path));
+    let read = |path: &Path| read_input(path).map_err(|error| MeshError::from(error).in_file(path));
     let bytes = read(grid.as_ref())?;
     let solutions: Vec<Vec<u8>> =
         solutions.iter().map(|path| read(path.as_ref())).collect::<Result<_, _>>()?;

@@ -21,6 +21,12 @@ pub mod thresholds;
 pub mod triangulate;
 pub mod validity;
 
+/// Largest [`JadeOptions::k`], and least [`JadeOptions::c1`]: limits far below what coordinates can tell apart, or steps of next
+/// to nothing, would make iterations without number.
+pub const MAX_K: f64 = 1e12;
+/// See [`MAX_K`].
+pub const MIN_C1: f64 = 1.001;
+
 /// Where the vertices of a level may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -35,9 +41,9 @@ pub enum Placement {
 /// Constants of the algorithm, by their names in the paper.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct JadeOptions {
-    /// The first limit on the local error is the largest one divided by this (section 5). At least 1.
+    /// The first limit on the local error is the largest one divided by this (section 5). From 1 to [`MAX_K`].
     pub k: f64,
-    /// Factor from one iteration's limit to the next (section 5). Above 1.
+    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`] to 16.
     pub c1: f64,
     /// Limit on the global error as a multiple of that on the local error (section 5). At least 1.
     pub c2: f64,

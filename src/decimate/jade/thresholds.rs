@@ -30,7 +30,8 @@ impl Thresholds {
     pub fn new(max_error: Option<f64>, diagonal: f64, options: &JadeOptions) -> Self {
         let start = max_error.unwrap_or(START * diagonal) / options.k;
         let target = max_error.unwrap_or(f64::INFINITY);
-        Self { local: start.min(target), target, c1: options.c1, c2: options.c2 }
+        // From nothing no factor would lead anywhere.
+        Self { local: start.max(f64::MIN_POSITIVE).min(target), target, c1: options.c1, c2: options.c2 }
     }
 
     /// The limits of this iteration.
@@ -69,6 +70,7 @@ impl Thresholds {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{MAX_K, MIN_C1};
     use super::*;
 
     fn all(max_error: Option<f64>, diagonal: f64) -> Vec<Limits> {
@@ -110,6 +112,16 @@ mod tests {
         let limits = all(None, 100.0);
         assert_eq!(limits[0].local, 1.0 / 256.0);
         assert_eq!(limits.len(), 100);
+    }
+
+    #[test]
+    fn the_finest_steps_from_the_least_start_come_to_an_end() {
+        let options = JadeOptions { k: MAX_K, c1: MIN_C1, ..JadeOptions::default() };
+        for (max_error, diagonal) in [(None, 0.0), (Some(f64::MAX), 1.0), (Some(1e-300), 1.0)] {
+            let mut thresholds = Thresholds::new(max_error, diagonal, &options);
+            let needed = max_error.unwrap_or(f64::MAX);
+            assert!(thresholds.advance(needed).is_some_and(|limits| limits.local >= needed));
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use nephrite::decimate::jade::JadeOptions;
+use nephrite::decimate::jade::{JadeOptions, MAX_K, MIN_C1};
 use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::progressive_mesh::encode;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
@@ -93,11 +93,11 @@ struct JadeArguments {
     placement: PlacementName,
 
     /// The first limit on the local error is the largest one divided by this; 256 by default, 240.5 for the best placement
-    #[arg(long = "jade-k", value_name = "K", value_parser = at_least_one)]
+    #[arg(long = "jade-k", value_name = "K", value_parser = jade_k)]
     k: Option<f64>,
 
     /// Factor from one iteration's limit to the next; 1.3 by default, 1.259 for the best placement
-    #[arg(long = "jade-c1", value_name = "C1", value_parser = above_one)]
+    #[arg(long = "jade-c1", value_name = "C1", value_parser = jade_c1)]
     c1: Option<f64>,
 
     /// Limit on the global error as a multiple of that on the local error
@@ -145,12 +145,12 @@ fn angle(text: &str) -> Result<f64, &'static str> {
     number(text, "expected an angle from 0 to 180 degrees", |value| (0.0..=180.0).contains(&value))
 }
 
-fn at_least_one(text: &str) -> Result<f64, &'static str> {
-    number(text, "expected a number of at least 1", |value| value >= 1.0)
+fn jade_k(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number from 1 to 1e12", |value| (1.0..=MAX_K).contains(&value))
 }
 
-fn above_one(text: &str) -> Result<f64, &'static str> {
-    number(text, "expected a number above 1 and at most 16", |value| value > 1.0 && value <= 16.0)
+fn jade_c1(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number from 1.001 to 16", |value| (MIN_C1..=16.0).contains(&value))
 }
 
 fn from_one_to_sixteen(text: &str) -> Result<f64, &'static str> {

@@ -5,7 +5,7 @@
 //! A part that cannot be read or built is listed with its reason and stops nobody. Of a part that is done nothing stays in memory but
 //! where its line is.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use std::time::Instant;
 use nephrite::TriangleMesh;
 use nephrite::history::{History, Levels};
 use nephrite::query::CurvePoint;
-use nephrite_formats::{MeshFormat, VolumeFormat, neph};
+use nephrite_formats::{MeshFormat, VolumeFormat, neph, read_input};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -91,10 +91,15 @@ fn list_parts<'a>(named: impl Iterator<Item = &'a PathBuf>) -> Result<Vec<(PathB
     let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
     parts.iter().for_each(|part| *uses.entry(stem(part)).or_default() += 1);
-    let name = |part: &Path| match stem(part) {
-        stem if uses.get(&stem) == Some(&1) => format!("{stem}.neph"),
-        // Parts of one name in several folders are told apart by their paths.
-        stem => format!("{stem}-{:016x}.neph", neph::checksum(part.as_os_str().as_encoded_bytes())),
+    let mut taken = HashSet::new();
+    let mut name = |part: &Path| {
+        let stem = stem(part);
+        let path = neph::checksum(part.as_os_str().as_encoded_bytes());
+        // Parts of one name in several folders are told apart by their paths, and by numbers where a name looks like that.
+        let plain = (uses.get(&stem) == Some(&1)).then(|| format!("{stem}.neph"));
+        let numbered = (2_u64..).map(|number| format!("{stem}-{path:016x}-{number}.neph"));
+        let names = plain.into_iter().chain([format!("{stem}-{path:016x}.neph")]).chain(numbered);
+        names.into_iter().find(|name| taken.insert(name.clone())).unwrap_or_default()
     };
     Ok(parts.iter().map(|part| (part.clone(), name(part))).collect())
 }
@@ -123,7 +128,10 @@ fn build_part(
         report::note(&format!("{}: {reason}", part.display()));
         manifest.append(&json!({ "part": part_name, "reason": reason }))
     };
-    let bytes = match fs::read(part) {
+    if let Err(failure) = files::check_output(output, &[part]) {
+        return Some(fail(failure.line()));
+    }
+    let bytes = match read_input(part) {
         Ok(bytes) => bytes,
         Err(error) => return Some(fail(error.to_string())),
     };

@@ -1,8 +1,8 @@
 //! The list of a database's parts: a file of JSON lines that grows while parts are built and is put in order in the end.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -65,12 +65,12 @@ pub(super) struct Manifest {
 }
 
 impl Manifest {
-    /// The list of a folder, and the lines of earlier runs by part, the last of each; lines that are cut off or something else are left
-    /// out.
+    /// The list of a folder, and the lines of earlier runs by part, the last of each. Lines behind one that is cut off are left out. The
+    /// file is locked where that is known to work: two builds of one database would write into each other's lines.
     ///
     /// # Errors
     ///
-    /// When the file cannot be read or written.
+    /// When the file cannot be read or written, is written by another process, or begins with something else than a line.
     pub(super) fn open(folder: &Path) -> Result<(Self, BTreeMap<PathBuf, Line>), Failure> {
         let path = folder.join(MANIFEST);
         let opened = open(&path).map_err(|source| Failure::file(&path, source))?;
@@ -84,8 +84,12 @@ impl Manifest {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let start = file.1;
         // One write per line, so that lines of several threads never mix.
-        let _ = file.0.write_all(text.as_bytes());
-        file.1 = file.0.stream_position().unwrap_or(start + text.len() as u64);
+        if file.0.write_all(text.as_bytes()).is_err() {
+            // What of it is there would spoil the next line.
+            let _ = file.0.set_len(start).and_then(|()| file.0.seek(SeekFrom::Start(start)));
+            return Line::new(value, start, 0);
+        }
+        file.1 = start + text.len() as u64;
         Line::new(value, start, text.len())
     }
 
@@ -111,7 +115,14 @@ impl Manifest {
 
 /// The file at its end, its length, and what it holds.
 fn open(path: &Path) -> io::Result<(File, u64, BTreeMap<PathBuf, Line>)> {
+    // A link would have another file cut, wherever that is.
+    if fs::symlink_metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "is not a regular file"));
+    }
     let mut file = File::options().create(true).truncate(false).read(true).write(true).open(path)?;
+    if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+        return Err(io::Error::new(ErrorKind::WouldBlock, "is being written by another build"));
+    }
     let mut known = BTreeMap::new();
     let (mut start, mut text) = (0_u64, Vec::new());
     let mut reader = BufReader::new(&file);
@@ -121,6 +132,11 @@ fn open(path: &Path) -> io::Result<(File, u64, BTreeMap<PathBuf, Line>)> {
                 let line = Line { is_unchanged: true, ..Line::new(&value, start, text.len()) };
                 known.insert(PathBuf::from(part), line);
             }
+        } else if start == 0 && !text.starts_with(b"{") {
+            return Err(io::Error::new(
+                ErrorKind::InvalidData,
+                "is something else than the list of a database",
+            ));
         } else {
             break;
         }
