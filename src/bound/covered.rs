@@ -14,13 +14,14 @@ pub const MAX_CORNERS: usize = 11;
 /// over exactly one of the two triangles there.
 #[derive(Clone, Debug, Default)]
 pub struct Covered {
-    /// The vertices, the one to be removed first.
+    /// The vertices, in no particular order.
     pub vertices: Vec<u32>,
     /// Their positions in the input.
     pub points: Vec<Vector>,
     /// A bit per ring pair and vertex; empty where the hole is too large or has no average plane.
     sides: Vec<u64>,
     ring: Vec<Point2>,
+    flat: Vec<Point2>,
 }
 
 /// Which bits of a vertex's sides say that it lies over a triangle.
@@ -45,10 +46,10 @@ fn pair_bit(low: u8, high: u8) -> u64 {
 }
 
 impl Covered {
-    /// Takes the given source vertices as those over `hole`. O(vertices * ring pairs).
-    pub fn gather(&mut self, surface: &Surface, hole: &Hole, vertices: impl Iterator<Item = u32>) {
+    /// Takes the source vertices of the given lists as those over `hole`. O(vertices * ring pairs).
+    pub fn gather<'a>(&mut self, surface: &Surface, hole: &Hole, lists: impl Iterator<Item = &'a [u32]>) {
         self.vertices.clear();
-        self.vertices.extend(vertices);
+        lists.for_each(|list| self.vertices.extend_from_slice(list));
         self.points.clear();
         self.points.extend(self.vertices.iter().map(|&v| surface.origin(v)));
         self.sides.clear();
@@ -61,8 +62,9 @@ impl Covered {
         let plane = Plane::new(scale(normal, 1.0 / size_sq.sqrt()));
         let flatten = |p: Vector| plane.project(p, hole.apex);
         self.ring.extend(hole.points.iter().map(|&p| flatten(p)));
-        let ring = &self.ring;
-        self.sides.extend(self.points.iter().map(|&p| sides_of(flatten(p), ring)));
+        self.flat.clear();
+        self.flat.extend(self.points.iter().map(|&p| flatten(p)));
+        find_sides(&self.flat, &self.ring, &mut self.sides);
     }
 
     /// Whether sides are known.
@@ -82,25 +84,49 @@ impl Covered {
         self.sides.get(at).is_some_and(|sides| sides & over.mask == over.sides)
     }
 
-    /// Points over a triangle.
-    pub fn points_over(&self, over: Over) -> impl Iterator<Item = Vector> {
-        let is_over = move |&(sides, _): &(&u64, &Vector)| sides & over.mask == over.sides;
-        self.sides.iter().zip(&self.points).filter(is_over).map(|(_, &p)| p)
+    /// Largest of `value` among the points over a triangle, or the first one found above `cutoff`. A point that ends the search moves
+    /// half way to the front: what is too far from one triangle is likely to be so from others, and is found sooner there.
+    #[inline]
+    pub fn largest_over(&mut self, over: Over, cutoff: f64, value: impl Fn(Vector) -> f64) -> f64 {
+        let mut largest = 0.0_f64;
+        let mut last = None;
+        for (at, (&sides, &p)) in self.sides.iter().zip(&self.points).enumerate() {
+            if sides & over.mask == over.sides {
+                largest = largest.max(value(p));
+                if largest > cutoff {
+                    last = Some(at);
+                    break;
+                }
+            }
+        }
+        if let Some(at) = last {
+            self.swap(at, at / 2);
+        }
+        largest
+    }
+
+    fn swap(&mut self, i: usize, j: usize) {
+        self.vertices.swap(i, j);
+        self.points.swap(i, j);
+        self.sides.swap(i, j);
     }
 }
 
-fn sides_of(p: Point2, ring: &[Point2]) -> u64 {
-    let mut sides = 0;
+/// Fills `sides`, which is empty, for points in the plane of the ring: line by line rather than point by point, so that several
+/// points are compared at once.
+fn find_sides(flat: &[Point2], ring: &[Point2], sides: &mut Vec<u64>) {
+    sides.resize(flat.len(), 0);
     let mut bit = 1;
     for (j, &b) in ring.iter().enumerate() {
         for &a in &ring[..j] {
-            if turn(a, b, p) >= 0.0 {
-                sides |= bit;
+            let across = [a[1] - b[1], b[0] - a[0]];
+            let level = across[0] * a[0] + across[1] * a[1];
+            for (sides, p) in sides.iter_mut().zip(flat) {
+                *sides |= if across[0] * p[0] + across[1] * p[1] >= level { bit } else { 0 };
             }
             bit <<= 1;
         }
     }
-    sides
 }
 
 #[cfg(test)]
@@ -113,7 +139,9 @@ mod tests {
         #[test]
         fn a_point_lies_over_one_triangle_of_a_fan(x in -0.6_f64..0.6, y in -0.6_f64..0.6, start in 0_u8..7) {
             let ring: Vec<Point2> = (0..7).map(|i| { let a = f64::from(i) * 0.897; [a.cos(), a.sin()] }).collect();
-            let covered = Covered { sides: vec![sides_of([x, y], &ring)], points: vec![[x, y, 0.0]], ring, ..Covered::default() };
+            let mut sides = vec![];
+            find_sides(&[[x, y]], &ring, &mut sides);
+            let covered = Covered { sides, points: vec![[x, y, 0.0]], ring, ..Covered::default() };
             let fan = (1..6).map(|i| [start, (start + i) % 7, (start + i + 1) % 7]);
             let holders = fan.filter(|&triangle| covered.is_over(0, Over::new(triangle))).count();
             prop_assert_eq!(holders, 1);

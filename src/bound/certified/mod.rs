@@ -155,10 +155,10 @@ impl Certified {
         self.contents.compact();
     }
 
-    /// Source vertices whose image lies in the star of `hole`, the removed one first.
-    pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = u32> + 'a {
-        let mapped = hole.slots.iter().flat_map(|&slot| self.contents.vertices(slot));
-        std::iter::once(hole.removed).chain(mapped.copied())
+    /// Source vertices whose image lies in the star of `hole`, in lists: the removed one first.
+    pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = &'a [u32]> {
+        let mapped = hole.slots.iter().map(|&slot| self.contents.vertices(slot));
+        std::iter::once(std::slice::from_ref(&hole.removed)).chain(mapped)
     }
 
     fn is_alive(&self, v: u32) -> bool {

@@ -6,16 +6,19 @@ use super::removal::Removal;
 use super::route::{Destinations, Route};
 use crate::bound::{REACH, Replacement};
 use crate::geometry::distance::point_segment_distance_sq;
+use crate::mesh::MAX_VALENCE;
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
 pub struct Transfer {
     destinations: Destinations,
     route: Route,
+    /// A change while it is not known whether it is needed: most removals end above the limit.
+    draft: Change,
 }
 
 /// What a removal changes in the map.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Change {
     /// Every vertex mapped into the hole, by label.
     pub(super) assignments: Vec<Assignment>,
@@ -56,25 +59,22 @@ impl Transfer {
     /// What the removal changes, and the largest displacement; or that alone where it is above `limit`, or the first one found above
     /// [`REACH`] times the limit.
     pub(super) fn change(&mut self, removal: Removal<'_>, limit: f64) -> Result<(f64, Change), f64> {
-        let mut change = Change { assignments: vec![], chains: vec![], portions: vec![], through: vec![] };
+        let mut draft = std::mem::take(&mut self.draft);
+        draft.clear();
         let limit_sq = limit * limit;
         let largest_sq = self.walk(removal, REACH * REACH * limit_sq, |edge, portions| {
             removal.shorten(edge, portions);
-            change.add_chain(removal, edge, portions);
+            draft.add_chain(removal, edge, portions);
         });
-        if largest_sq > limit_sq {
-            return Err(largest_sq.sqrt());
-        }
-        let assign = |&vertex: &u32| Assignment {
-            vertex,
-            label: self.destinations.labels.get(vertex).unwrap_or_default(),
-            rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
+        let found = largest_sq.sqrt();
+        let result = if largest_sq > limit_sq {
+            Err(found)
+        } else {
+            draft.assign(removal, &self.destinations);
+            Ok((found, draft.in_order()))
         };
-        change.assignments.extend(removal.covered.vertices.iter().map(assign));
-        change.assignments.sort_unstable_by_key(|assignment| (assignment.label, assignment.vertex));
-        change.through.sort_unstable();
-        change.through.dedup();
-        Ok((largest_sq.sqrt(), change))
+        self.draft = draft;
+        result
     }
 
     /// Gives every source edge that the removal moves its new chain and shows it to `take`. Largest squared displacement
@@ -90,7 +90,7 @@ impl Transfer {
         if largest_sq > limit_sq {
             return largest_sq;
         }
-        let Self { destinations, route } = self;
+        let Self { destinations, route, .. } = self;
         for edge in removal.moved_edges(&destinations.labels) {
             largest_sq = largest_sq.max(route.find(destinations, removal, edge));
             if largest_sq > limit_sq {
@@ -125,14 +125,63 @@ impl Transfer {
 }
 
 impl Change {
+    fn clear(&mut self) {
+        self.assignments.clear();
+        self.chains.clear();
+        self.portions.clear();
+        self.through.clear();
+    }
+
+    /// Adds where the vertices go.
+    fn assign(&mut self, removal: Removal<'_>, destinations: &Destinations) {
+        let assign = |&vertex: &u32| Assignment {
+            vertex,
+            label: destinations.labels.get(vertex).unwrap_or_default(),
+            rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
+        };
+        self.assignments.extend(removal.covered.vertices.iter().map(assign));
+    }
+
+    /// A copy in order of the labels.
+    fn in_order(&self) -> Self {
+        Self {
+            assignments: by_label(&self.assignments, |assignment| assignment.label),
+            chains: self.chains.clone(),
+            portions: self.portions.clone(),
+            through: by_label(&self.through, |&(label, _)| label),
+        }
+    }
+
     #[expect(clippy::cast_possible_truncation, reason = "a filling has fewer than MAX_VALENCE triangles")]
     fn add_chain(&mut self, removal: Removal<'_>, edge: u32, portions: &[Portion]) {
         self.portions.extend_from_slice(portions);
         let replaces = removal.certified.chains.version(edge);
         self.chains.push(NewChain { edge, replaces, end: self.portions.len() });
-        if portions.len() >= 2 {
-            let labels = portions.iter().filter_map(|portion| removal.star_index(portion.slot));
-            self.through.extend(labels.map(|label| (label as u8, edge)));
+        if portions.len() < 2 {
+            return;
+        }
+        let mut seen = 0_u64;
+        for label in portions.iter().filter_map(|portion| removal.star_index(portion.slot)) {
+            if seen & (1 << label) == 0 {
+                seen |= 1 << label;
+                self.through.push((label as u8, edge));
+            }
         }
     }
+}
+
+/// The items in order of their labels, which are below [`MAX_VALENCE`], by counting.
+fn by_label<T: Copy>(items: &[T], label: impl Fn(&T) -> u8) -> Vec<T> {
+    let mut starts = [0; MAX_VALENCE + 1];
+    items.iter().for_each(|item| starts[usize::from(label(item)) + 1] += 1);
+    for at in 0..MAX_VALENCE {
+        starts[at + 1] += starts[at];
+    }
+    let mut ordered = items.to_vec();
+    for item in items {
+        let start = &mut starts[usize::from(label(item))];
+        ordered[*start] = *item;
+        *start += 1;
+    }
+    ordered
 }

@@ -100,7 +100,7 @@ fn fill_best(
     let surface = situation.surface;
     covered.gather(surface, hole, certified.vertices_in(hole));
     let limit_sq = limits.global * limits.global;
-    match fit(Fitting { surface, hole, class, covered, limit_sq }, polygons, filling) {
+    match fit(Fitting { surface, hole, class, limit_sq }, covered, polygons, filling) {
         Some(fitted_sq) if fitted_sq > limit_sq => {
             Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
         }

@@ -8,11 +8,11 @@
 use super::classify::Class;
 use super::optimal::triangulate_optimally;
 use super::triangulate::{Polygons, collect_part, ring_index};
-use super::validity::{WORST_ASPECT, aspect, worst_star_aspect};
+use super::validity::{WORST_ASPECT, worst_star_aspect};
 use crate::bound::REACH;
 use crate::bound::covered::{Covered, MAX_CORNERS, Over};
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
-use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
+use crate::geometry::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
 use crate::mesh::{Filling, Hole, Surface};
 
 /// A hole to be filled.
@@ -24,8 +24,6 @@ pub struct Fitting<'a> {
     pub hole: &'a Hole,
     /// Whether it is to be split.
     pub class: Class,
-    /// What the filling will stand for.
-    pub covered: &'a Covered,
     /// The largest squared distance that is of use.
     pub limit_sq: f64,
 }
@@ -33,8 +31,13 @@ pub struct Fitting<'a> {
 /// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to the points
 /// covered. Returns the largest distance among points and the triangles they lie over, squared, or a lower bound of it above
 /// [`REACH`] times the limit; `None` where there is no such filling or the hole is too large.
-pub fn fit(fitting: Fitting<'_>, polygons: &mut Polygons, filling: &mut Filling) -> Option<f64> {
-    let Fitting { surface, hole, covered, limit_sq, .. } = fitting;
+pub fn fit(
+    fitting: Fitting<'_>,
+    covered: &mut Covered,
+    polygons: &mut Polygons,
+    filling: &mut Filling,
+) -> Option<f64> {
+    let Fitting { surface, hole, limit_sq, .. } = fitting;
     let is_tetrahedron = hole.closed && hole.n_ring() == 3 && surface.has_triangle(triple(hole));
     if !covered.has_sides() || is_tetrahedron {
         return None;
@@ -42,7 +45,7 @@ pub fn fit(fitting: Fitting<'_>, polygons: &mut Polygons, filling: &mut Filling)
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
     let mut is_taken = [[false; MAX_CORNERS]; MAX_CORNERS];
     loop {
-        let worst_sq = fit_around(fitting, &is_taken, polygons, filling)?;
+        let worst_sq = fit_around(fitting, &is_taken, covered, polygons, filling)?;
         if worst_sq > limit_sq {
             return Some(worst_sq);
         }
@@ -59,13 +62,14 @@ pub fn fit(fitting: Fitting<'_>, polygons: &mut Polygons, filling: &mut Filling)
 fn fit_around(
     fitting: Fitting<'_>,
     is_taken: &[[bool; MAX_CORNERS]; MAX_CORNERS],
+    covered: &mut Covered,
     polygons: &mut Polygons,
     filling: &mut Filling,
 ) -> Option<f64> {
-    let Fitting { hole, class, covered, limit_sq, .. } = fitting;
+    let Fitting { hole, class, limit_sq, .. } = fitting;
     filling.triangles.clear();
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
-    let score = |triangle: [u8; 3], cutoff: f64| {
+    let mut score = |triangle: [u8; 3], cutoff: f64| {
         let [a, b, c] = triangle.map(usize::from);
         if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
             return f64::INFINITY;
@@ -80,7 +84,11 @@ fn fit_around(
     let mut fill_part = |from, to, filling: &mut Filling| {
         collect_part(hole, from, to, &mut polygons.part);
         let is_edge = polygons.part.len() < 3;
-        if is_edge { Some(0.0) } else { triangulate_optimally(&polygons.part, score, &mut filling.triangles) }
+        if is_edge {
+            Some(0.0)
+        } else {
+            triangulate_optimally(&polygons.part, &mut score, &mut filling.triangles)
+        }
     };
     let first = fill_part(from, to, filling)?;
     filling.n_first_part = filling.triangles.len();
@@ -92,7 +100,7 @@ fn fit_around(
 /// triangle faces away or is too thin.
 fn largest_distance_sq(
     hole: &Hole,
-    covered: &Covered,
+    covered: &mut Covered,
     triangle: [u8; 3],
     worst_aspect: f64,
     cutoff: f64,
@@ -100,19 +108,11 @@ fn largest_distance_sq(
     if covered.flat_area(triangle) <= 0.0 {
         return f64::INFINITY;
     }
-    let corners = triangle.map(|i| hole.points[usize::from(i)]);
-    if aspect(&corners) < worst_aspect {
+    let floor = Floor::new(triangle.map(|i| hole.points[usize::from(i)]));
+    if floor.is_thinner(worst_aspect) {
         return f64::INFINITY;
     }
-    let floor = Floor::new(corners);
-    let mut largest_sq = 0.0_f64;
-    for p in covered.points_over(Over::new(triangle)) {
-        largest_sq = largest_sq.max(floor.distance_sq(p));
-        if largest_sq > cutoff {
-            break;
-        }
-    }
-    largest_sq
+    covered.largest_over(Over::new(triangle), cutoff, |p| floor.distance_sq(p))
 }
 
 /// A triangle under points most of which have the foot of their perpendicular inside: their distance is a height.
@@ -129,6 +129,13 @@ impl Floor {
         let (ab, ac) = (sub(corners[1], corners[0]), sub(corners[2], corners[0]));
         let normal = cross(ab, ac);
         Self { corners, normal, across: [cross(ac, normal), cross(normal, ab)], normal_sq: length_sq(normal) }
+    }
+
+    /// Whether the triangle's [`aspect`](super::validity::aspect) is below `least`.
+    fn is_thinner(&self, least: f64) -> bool {
+        let [a, b, c] = self.corners;
+        let edges_sq = distance_sq(a, b) + distance_sq(b, c) + distance_sq(c, a);
+        12.0 * self.normal_sq < (least * edges_sq).powi(2) || edges_sq <= 0.0
     }
 
     /// Squared distance of a point: good enough to choose by, not to prove with.

@@ -74,7 +74,7 @@ pub fn run(
                     return Err(Unfinished::Stopped);
                 }
                 round += 1;
-                let (picked, others) = pick(&decimation.surface, &mut candidates, round, worklist);
+                let (picked, others) = candidates.pick(&decimation.surface, round, worklist);
                 let under = Limits { global: ceiling, ..limits };
                 let touched =
                     remove_all(decimation, &mut candidates, under, &picked).map_err(Unfinished::TooLarge)?;
@@ -133,9 +133,11 @@ impl Candidates {
     }
 
     /// Those above the limits whose star changed since they were tried, as far as they needed no more than `most`; with nothing
-    /// known of them.
+    /// known of them. In ascending order, each once.
     fn take_changed(&mut self, most: f64) -> Vec<u32> {
-        let mut changed = sorted(std::mem::take(&mut self.changed));
+        let mut changed = std::mem::take(&mut self.changed);
+        changed.par_sort_unstable();
+        changed.dedup();
         changed.retain(|&v| {
             let needed = self.needed[v as usize];
             needed.is_finite() && f64::from(needed) <= most
@@ -145,8 +147,7 @@ impl Candidates {
     }
 
     /// Takes note that the stars of `touched` have changed; gives those that may be tried under these limits.
-    fn touch(&mut self, limits: Limits, touched: Vec<u32>) -> Vec<u32> {
-        let mut touched = sorted(touched);
+    fn touch(&mut self, limits: Limits, mut touched: Vec<u32>) -> Vec<u32> {
         touched.retain(|&v| {
             let needed = self.needed[v as usize];
             if needed.is_infinite() {
@@ -161,14 +162,30 @@ impl Candidates {
         touched
     }
 
-    /// Those of the given vertices below the ceiling, each once, in ascending order. Those above it wait, or are left to a later
-    /// iteration.
-    fn sort_out(&mut self, limits: Limits, ceiling: f64, vertices: Vec<u32>) -> Vec<u32> {
-        let mut next = sorted(vertices);
-        next.retain(|&v| f64::from(self.needed[v as usize]) <= limits.local);
-        let found = &self.found;
-        self.waiting.extend(next.extract_if(.., |v| f64::from(found[*v as usize]) > ceiling));
-        next
+    /// Those of the given vertices below the ceiling, each once: cheapest first, as far as is known, ties to the lower vertex. Those
+    /// above it wait, or are left to a later iteration.
+    fn sort_out(&mut self, limits: Limits, ceiling: f64, mut vertices: Vec<u32>) -> Vec<u32> {
+        let Self { needed, found, waiting, .. } = self;
+        vertices.retain(|&v| f64::from(needed[v as usize]) <= limits.local);
+        waiting.extend(vertices.extract_if(.., |v| f64::from(found[*v as usize]) > ceiling));
+        vertices
+            .par_sort_unstable_by(|&a, &b| found[a as usize].total_cmp(&found[b as usize]).then(a.cmp(&b)));
+        vertices.dedup();
+        vertices
+    }
+
+    /// Parts the worklist into an independent set, no two of them neighbours, and the others. Who comes first is picked.
+    fn pick(&mut self, surface: &Surface, round: u32, worklist: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
+        let picked = &mut self.picked;
+        worklist.into_iter().partition(|&v| {
+            let is_free = picked[v as usize] != round;
+            if is_free {
+                for &slot in surface.star(v) {
+                    surface.corners(slot).iter().for_each(|&r| picked[r as usize] = round);
+                }
+            }
+            is_free
+        })
     }
 
     /// Takes note of what a vertex needs.
@@ -187,34 +204,6 @@ impl Candidates {
         self.needed[v as usize] = 0.0;
         self.found[v as usize] = 0.0;
     }
-}
-
-/// Distinct vertices in ascending order.
-fn sorted(mut vertices: Vec<u32>) -> Vec<u32> {
-    vertices.par_sort_unstable();
-    vertices.dedup();
-    vertices
-}
-
-/// Parts the worklist into an independent set, no two of them neighbours, and the others: cheapest first, as far as is known, ties
-/// to the lower vertex.
-fn pick(
-    surface: &Surface,
-    candidates: &mut Candidates,
-    round: u32,
-    mut worklist: Vec<u32>,
-) -> (Vec<u32>, Vec<u32>) {
-    let Candidates { found, picked, .. } = candidates;
-    worklist.par_sort_unstable_by(|&a, &b| found[a as usize].total_cmp(&found[b as usize]).then(a.cmp(&b)));
-    worklist.into_iter().partition(|&v| {
-        let is_free = picked[v as usize] != round;
-        if is_free {
-            for &slot in surface.star(v) {
-                surface.corners(slot).iter().for_each(|&r| picked[r as usize] = round);
-            }
-        }
-        is_free
-    })
 }
 
 /// Removes those of the picked vertices that are within the limits, one step each, and returns the vertices whose stars changed;
