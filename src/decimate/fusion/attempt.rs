@@ -18,28 +18,38 @@ pub(super) struct Accepted {
 }
 
 /// How much the squared error of the boundary counts beside the squared distances to planes. That error is a bound and adds up,
-/// which the other terms of a cost are not.
-const ERROR_WEIGHT: f64 = 1e4;
+/// which the other terms of a cost are not. Fields add up in a cost: with each the boundary counts once more, so that it does not
+/// lose against many.
+const ERROR_WEIGHT: f64 = 1.5e3;
 
 impl State {
     /// The quadric error of a fusion at the best point. A lower bound of what it costs where the boundary takes part.
     pub(super) fn cost(&self, prey: &Prey) -> f64 {
         let quadric = self.metric.of(prey.vertices());
-        quadric.at(self.metric.local(self.best_point(prey, &quadric)))
+        match self.fixed(prey) {
+            Some(v) => self.cost_at(prey, &quadric, v),
+            None => {
+                let point = self.least_point(prey.vertices(), &quadric);
+                quadric.at(self.metric.local(point))
+            }
+        }
     }
 
-    /// The place of the only boundary vertex or of a corner, otherwise where the quadric is least.
-    fn best_point(&self, prey: &Prey, quadric: &Quadric) -> Vector {
+    /// The only boundary vertex or a corner among the vertices of a prey: where the fusion point has to be.
+    fn fixed(&self, prey: &Prey) -> Option<u32> {
         let kind = |v: &u32| self.creases.kind(*v);
-        let mut on_boundary = prey.vertices().iter().filter(|v| kind(v) != Kind::Interior);
-        let fixed = match (on_boundary.next(), on_boundary.next()) {
+        let mut on_boundary = prey.vertices().iter().copied().filter(|v| kind(v) != Kind::Interior);
+        match (on_boundary.next(), on_boundary.next()) {
             (only, None) => only,
-            _ => prey.vertices().iter().find(|v| kind(v) >= Kind::Corner),
-        };
-        match fixed {
-            Some(&v) => self.mesh.position(v),
-            None => self.least_point(prey.vertices(), quadric),
+            _ => prey.vertices().iter().copied().find(|v| kind(v) >= Kind::Corner),
         }
+    }
+
+    /// The quadric error at the place of a fused vertex, whose values stay as they are.
+    fn cost_at(&self, prey: &Prey, quadric: &Quadric, v: u32) -> f64 {
+        let p = self.metric.local(self.mesh.position(v));
+        let departure = self.metric.departure(prey.vertices(), p, |field| self.fields.scaled_value(v, field));
+        quadric.at(p) + departure
     }
 
     /// Where the quadric is least; the barycentre where it does not tell.
@@ -94,13 +104,13 @@ impl State {
         let before = self.error_before();
         let six_volumes = self.neighbourhood.six_volumes_before(&self.mesh);
         let [xx, _, _, yy, _, zz] = quadric.a;
-        let error_weight = ERROR_WEIGHT * (xx + yy + zz);
+        let error_weight = ERROR_WEIGHT * self.metric.n_fields().max(1) as f64 * (xx + yy + zz);
         let mut best: Option<Accepted> = None;
-        let mut consider = |point: [f32; 3]| {
+        let mut consider = |point: [f32; 3], quadric_error: f64| {
             let p = point.map(f64::from);
             let Some(fit) = self.patch.fit(p).filter(|fit| fit.outside <= self.slack) else { return };
             let error = before + fit.distance;
-            let cost = quadric.at(self.metric.local(p)).max(0.0) + error_weight * error * error;
+            let cost = quadric_error.max(0.0) + error_weight * error * error;
             if error > self.max_error || best.as_ref().is_some_and(|best| best.cost <= cost) {
                 return;
             }
@@ -111,12 +121,13 @@ impl State {
             }
         };
         for &v in anchor.vertices() {
-            consider(self.mesh.positions()[v as usize]);
+            consider(self.mesh.positions()[v as usize], self.cost_at(prey, &quadric, v));
         }
         if anchor.is_free {
             let places = [self.least_point(members, &quadric), self.barycentre(members)];
             for place in places {
-                consider(round(self.patch.highest_inside(place)));
+                let point = round(self.patch.highest_inside(place));
+                consider(point, quadric.at(self.metric.local(point.map(f64::from))));
             }
         }
         best

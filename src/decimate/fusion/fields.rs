@@ -15,6 +15,8 @@ pub(super) struct Fields {
     values: Vec<f64>,
     /// Estimated deviation of each field, per vertex.
     deviations: Vec<f64>,
+    /// The components that the metric weighs.
+    columns: Vec<Column>,
     /// The largest deviation of each field anywhere so far.
     pub worst: Vec<f64>,
     scratch: Vec<f64>,
@@ -28,9 +30,20 @@ struct Shape {
     n_components: usize,
 }
 
+/// A component that varies, among all `n_values`.
+#[derive(Clone, Copy, Debug)]
+struct Column {
+    place: usize,
+    /// Makes the range of its field the length asked for.
+    scale: f64,
+    /// Least and largest value in the input.
+    range: [f64; 2],
+}
+
 impl Fields {
-    /// The fields of a mesh of `n_vertices` vertices.
-    pub(super) fn new(attributes: &[Attribute], n_vertices: usize) -> Self {
+    /// The fields of a mesh of `n_vertices` vertices; to the metric, the range of each is worth `length`, and with a length of zero
+    /// nothing. Fields that do not vary, or have values that are not finite, are left out there.
+    pub(super) fn new(attributes: &[Attribute], n_vertices: usize, length: f64) -> Self {
         let shapes: Vec<Shape> = attributes
             .iter()
             .map(|a| Shape { name: a.name.clone(), scalar: a.scalar, n_components: a.n_components as usize })
@@ -47,6 +60,7 @@ impl Fields {
         }
         let n_fields = shapes.len();
         Self {
+            columns: columns(&shapes, n_values, &values, length),
             shapes,
             n_values,
             values,
@@ -66,48 +80,29 @@ impl Fields {
         self.shapes.iter().map(|shape| shape.name.as_str())
     }
 
-    /// The components that vary, scaled so that the range of each field is `length`: their number, and their values per
-    /// vertex. Fields with values that are not finite are left out.
-    pub(super) fn scaled(&self, length: f64) -> (usize, Vec<f64>) {
-        let mut columns = Vec::new();
-        let mut first = 0;
-        for shape in &self.shapes {
-            let components = first..first + shape.n_components;
-            first = components.end;
-            let ranges = components.clone().map(|column| self.range(column));
-            let widest = ranges.fold(0.0, f64::max);
-            if widest > 0.0 && widest.is_finite() && length > 0.0 {
-                let varying = components.filter(|&column| self.range(column) > 0.0);
-                columns.extend(varying.map(|column| (column, length / widest)));
-            }
-        }
+    /// The values that the metric weighs, scaled: their number per vertex, and those of all vertices.
+    pub(super) fn scaled(&self) -> (usize, Vec<f64>) {
         let rows = self.values.chunks_exact(self.n_values.max(1));
-        let scaled =
-            rows.flat_map(|row| columns.iter().map(|&(column, scale)| scale * row[column])).collect();
-        (columns.len(), scaled)
+        let scaled = rows.flat_map(|row| self.columns.iter().map(|column| column.scale * row[column.place]));
+        (self.columns.len(), scaled.collect())
     }
 
-    /// Difference between the largest and the least value of a component; infinite where one is not finite.
-    fn range(&self, column: usize) -> f64 {
-        let values = self.values.iter().skip(column).step_by(self.n_values);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
-            if value.is_finite() {
-                (low.min(value), high.max(value))
-            } else {
-                (f64::NEG_INFINITY, f64::INFINITY)
-            }
-        });
-        high - low
+    /// A value that the metric weighs, scaled.
+    pub(super) fn scaled_value(&self, v: u32, i: usize) -> f64 {
+        let column = &self.columns[i];
+        column.scale * self.values[v as usize * self.n_values + column.place]
     }
 
-    /// Values at `p` for a vertex that takes the place of `fused`: those of the fused vertex at the same place, otherwise
-    /// interpolated in the tetrahedron that holds it.
+    /// Values at `p` for a vertex that takes the place of `fused`. At the place of one of them they are its own, so that what holds at a
+    /// boundary goes on to hold there. Elsewhere they are interpolated in the tetrahedron that holds `p`, and those that the metric
+    /// weighs are its best ones, within the range of the input: values of single vertices stand for ever fewer of the input's.
     pub(super) fn add_vertex(
         &mut self,
         mesh: &Tetrahedra,
         neighbourhood: &Neighbourhood,
         fused: &[u32],
         p: [f32; 3],
+        best_value: impl Fn(usize) -> Option<f64>,
     ) {
         if self.n_values == 0 {
             return;
@@ -137,6 +132,12 @@ impl Fields {
         let Some((corners, weights)) = best else { return };
         let (old, new) = self.values.split_at_mut(start);
         interpolate(old, self.n_values, corners, weights, new);
+        for (i, column) in self.columns.iter().enumerate() {
+            if let Some(value) = best_value(i) {
+                let [low, high] = column.range;
+                new[column.place] = (value / column.scale).clamp(low, high);
+            }
+        }
     }
 
     /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their values are from those that the
@@ -199,6 +200,31 @@ impl Fields {
         }
         attributes
     }
+}
+
+/// The components that the metric weighs, the widest of each field scaled to a range of `length`.
+fn columns(shapes: &[Shape], n_values: usize, values: &[f64], length: f64) -> Vec<Column> {
+    let mut columns = Vec::new();
+    let mut first = 0;
+    for shape in shapes {
+        let components = first..first + shape.n_components;
+        first = components.end;
+        let ranges: Vec<[f64; 2]> = components.clone().map(|place| range(values, n_values, place)).collect();
+        let widest = ranges.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        if widest > 0.0 && widest.is_finite() && length > 0.0 {
+            let varying = components.zip(ranges).filter(|(_, [low, high])| high > low);
+            columns.extend(varying.map(|(place, range)| Column { place, scale: length / widest, range }));
+        }
+    }
+    columns
+}
+
+/// Least and largest value of a component; of infinite distance where one is not finite.
+fn range(values: &[f64], n_values: usize, place: usize) -> [f64; 2] {
+    let values = values.iter().skip(place).step_by(n_values);
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
+        if value.is_finite() { [low.min(value), high.max(value)] } else { [f64::NEG_INFINITY, f64::INFINITY] }
+    })
 }
 
 fn interpolate(values: &[f64], n_values: usize, corners: [u32; 4], weights: [f64; 4], into: &mut [f64]) {

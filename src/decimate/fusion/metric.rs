@@ -137,6 +137,11 @@ impl Metric {
         }
     }
 
+    /// Components of fields that it weighs.
+    pub(super) fn n_fields(&self) -> usize {
+        self.n_fields
+    }
+
     /// The quadric of a fusion of these vertices, best values of the fields taken for granted.
     pub(super) fn of(&self, vertices: &[u32]) -> Quadric {
         let rows = |v: &u32| &self.numbers[*v as usize * self.stride..][..self.stride];
@@ -157,6 +162,33 @@ impl Metric {
             }
         }
         quadric
+    }
+
+    /// The scaled value of a field that is best for a fusion of these vertices at a point of the quadrics' coordinates: the mean of
+    /// what the field's pieces around them say there. `None` where none of them has a volume.
+    pub(super) fn best_value(&self, vertices: &[u32], field: usize, p: Vector) -> Option<f64> {
+        let mut weight = 0.0;
+        let mut sum = 0.0;
+        for &v in vertices {
+            let row = &self.numbers[v as usize * self.stride..][..self.stride];
+            let [x, y, z, d] = std::array::from_fn(|i| row[11 + 4 * field + i]);
+            weight += self.weight(v);
+            sum += dot([x, y, z], p) + d;
+        }
+        (weight > 0.0).then(|| sum / weight)
+    }
+
+    /// What a fusion of these vertices at `p` costs beyond its quadric where the fields do not take their best values there, but the
+    /// given ones, scaled.
+    pub(super) fn departure(&self, vertices: &[u32], p: Vector, value: impl Fn(usize) -> f64) -> f64 {
+        let weight: f64 = vertices.iter().map(|&v| self.weight(v)).sum();
+        let departure = |field| self.best_value(vertices, field, p).map_or(0.0, |best| value(field) - best);
+        (0..self.n_fields).map(|field| weight * departure(field).powi(2)).sum()
+    }
+
+    /// Sum of the weights of the tetrahedra that a vertex stands for.
+    fn weight(&self, v: u32) -> f64 {
+        if self.n_fields == 0 { 0.0 } else { self.numbers[v as usize * self.stride + 10] }
     }
 
     /// Adds a vertex that takes the place of others: the sum of theirs.

@@ -1,6 +1,7 @@
 //! The driver: candidates from the queue, each tried, the ones that hold made. First tetrahedra, as the paper has it; where no
 //! tetrahedron can be fused any more, edges.
 
+use super::attempt::Accepted;
 use super::options::FusionOptions;
 use super::prey::Prey;
 use super::queue::Queue;
@@ -46,8 +47,10 @@ struct Candidate {
     is_stale: bool,
     /// What it costs with the boundary's error counted in, as far as known: a lower bound.
     cost: f32,
-    /// Fusion after which it was refused.
+    /// Fusion after which it was refused, or the first of its edges were.
     refused: u32,
+    /// Edges refused then, the cheapest ones.
+    n_refused: u8,
 }
 
 /// Fuses tetrahedra that cost no more than the cheapest `share` of them did at the start.
@@ -157,19 +160,10 @@ fn fuse_edges(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
         let before = state.n_fusions;
         while let Some(v) = queue.pop() {
             edges.find(state, v);
-            let candidate = &mut candidates[v as usize];
-            let Some(&(least, _)) = edges.costs.first() else { continue };
-            if !queue.is_first(v, least.max(candidate.cost.into())) {
-                queue.push(v, least.max(candidate.cost.into()));
-                continue;
-            }
-            match first_that_holds(state, &edges, v) {
-                None => candidate.refused = state.now(),
-                Some((prey, accepted)) => {
-                    if comes_later(candidate, accepted.cost) && !queue.is_first(v, accepted.cost) {
-                        queue.push(v, accepted.cost);
-                        continue;
-                    }
+            match turn(state, &edges, &queue, v, &mut candidates[v as usize]) {
+                Turn::None => {}
+                Turn::Later(cost) => queue.push(v, cost),
+                Turn::Now(prey, accepted) => {
                     let new = state.fuse(&prey, &accepted, |_| {});
                     candidates.resize(state.mesh.n_vertices(), Candidate::default());
                     edges.find(state, new);
@@ -185,13 +179,41 @@ fn fuse_edges(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
 }
 
 /// The cheapest edges at a vertex are tried in order; no more than this many.
-const TRIED_EDGES: usize = 4;
+const TRIED_EDGES: u8 = 4;
 
-fn first_that_holds(state: &mut State, edges: &Edges, v: u32) -> Option<(Prey, super::attempt::Accepted)> {
-    edges.costs.iter().take(TRIED_EDGES).find_map(|&(_, w)| {
+/// What comes of a vertex that is first in the queue.
+enum Turn {
+    /// No edge of it can be fused.
+    None,
+    /// It costs more than what is next in the queue.
+    Later(f64),
+    Now(Prey, Accepted),
+}
+
+/// Tries the edges at a vertex in the order of their costs, each only when it is first: where a cheap edge is refused, the next may
+/// cost a thousand times as much.
+fn turn(state: &mut State, edges: &Edges, queue: &Queue, v: u32, candidate: &mut Candidate) -> Turn {
+    if state.touched[v as usize] > candidate.refused {
+        candidate.n_refused = 0;
+    }
+    let range = edges.costs.len().min(TRIED_EDGES.into());
+    for &(cost, w) in edges.costs[..range].iter().skip(candidate.n_refused.into()) {
+        let cost = cost.max(candidate.cost.into());
+        if !queue.is_first(v, cost) {
+            return Turn::Later(cost);
+        }
         let prey = Prey::edge([v, w]);
-        Some((prey, state.try_fusion(&prey)?))
-    })
+        let Some(accepted) = state.try_fusion(&prey) else {
+            candidate.n_refused += 1;
+            candidate.refused = state.now();
+            continue;
+        };
+        if comes_later(candidate, accepted.cost) && !queue.is_first(v, accepted.cost) {
+            return Turn::Later(accepted.cost);
+        }
+        return Turn::Now(prey, accepted);
+    }
+    Turn::None
 }
 
 fn queue_edges(state: &mut State, candidates: &[Candidate], edges: &mut Edges, queue: &mut Queue) -> bool {

@@ -66,8 +66,9 @@ impl State {
     ) -> Self {
         let tetrahedra = Tetrahedra::new(mesh);
         let (low, high) = bounds(mesh);
-        let fields = Fields::new(&mesh.attributes, mesh.positions.len());
-        let (n_scaled, scaled) = fields.scaled(options.field_weight * length(sub(high, low)));
+        let field_range = options.field_weight * length(sub(high, low));
+        let fields = Fields::new(&mesh.attributes, mesh.positions.len(), field_range);
+        let (n_scaled, scaled) = fields.scaled();
         let metric = Metric::new(&tetrahedra, midpoint(low, high), n_scaled, &scaled);
         let six_volumes: f64 = mesh.tetrahedra.iter().map(|&t| mesh.six_volumes(t)).sum();
         Self {
@@ -100,7 +101,9 @@ impl State {
     pub(super) fn fuse(&mut self, prey: &Prey, accepted: &Accepted, mut changed: impl FnMut(u32)) -> u32 {
         let quadric = self.metric.of(prey.vertices());
         self.recorder.step(accepted.error);
-        self.fields.add_vertex(&self.mesh, &self.neighbourhood, prey.vertices(), accepted.point);
+        let local = self.metric.local(accepted.point.map(f64::from));
+        let best = |field| self.metric.best_value(prey.vertices(), field, local);
+        self.fields.add_vertex(&self.mesh, &self.neighbourhood, prey.vertices(), accepted.point, best);
         self.n_fusions += 1;
         let now = self.now();
         for &slot in &self.neighbourhood.deleted {
