@@ -3,6 +3,7 @@
 
 mod support;
 
+use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -30,4 +31,18 @@ fn an_interrupted_build_leaves_nothing() {
         assert_eq!(stderr.lines().count(), 1, "{stderr}");
         assert_eq!(place.files(), ["in.ply"], "after {milliseconds} ms");
     }
+}
+
+/// A measurement asks nobody between its samples; it does not take over the interrupt and ends at once.
+#[test]
+fn a_measurement_without_end_is_interrupted() {
+    let place = Workplace::new();
+    place.done("generate sphere --triangles 300 -o in.ply");
+    let samples = ["measure", "in.ply", "in.ply", "--samples", "99999999999999"];
+    let mut measure = place.command(samples).stdout(Stdio::null()).spawn().expect("the program starts");
+    thread::sleep(Duration::from_millis(300));
+    let killed = Command::new("kill").args(["-INT", &measure.id().to_string()]).status();
+    assert!(killed.expect("kill is there").success());
+    let status = measure.wait().expect("the program ends");
+    assert_eq!(status.signal(), Some(2), "{status}");
 }

@@ -81,7 +81,7 @@ impl Storage for Disk {
     fn create(&self, path: &Path) -> io::Result<File> {
         // With the permissions of any new file, less what the process's mask takes away.
         let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
-        if cfg!(unix) && file.lock().is_ok() && !path.exists() {
+        if cfg!(unix) && file.lock().is_ok() && path.try_exists().is_ok_and(|is_there| !is_there) {
             // Between creation and lock it was taken for abandoned: the next name will do.
             return Err(io::Error::from(io::ErrorKind::AlreadyExists));
         }

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::plot::{self, Panel};
 use crate::report::{self, Report};
 use crate::threads::Threads;
-use crate::{figures, files, interrupt, ramp};
+use crate::{figures, files, ramp};
 
 /// Bars of the histogram.
 const N_BINS: usize = 128;
@@ -69,7 +69,6 @@ fn tolerance(text: &str) -> Result<f64, &'static str> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let start = Instant::now();
-    interrupt::listen();
     let inputs = [arguments.reference.as_path(), arguments.mesh.as_path()];
     if let Some(colour) = &arguments.colour {
         files::check_mesh_output(colour, &inputs)?;
@@ -80,7 +79,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     arguments.threads.run(|| {
         let inputs_read = Inputs::read(inputs)?;
         let Inputs { surfaces: [reference, mesh], fields, volumes } = inputs_read;
-        interrupt::check()?;
         let failed =
             |source| Failure::file(format!("{} and {}", inputs[0].display(), inputs[1].display()), source);
         let options = MeasureOptions {
@@ -90,7 +88,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         };
         let distance = measure::measure(&reference, &mesh, &options).map_err(failed)?;
         let seconds = start.elapsed();
-        interrupt::check()?;
         if !distance.is_within_tolerance {
             report::note("the bracket is wider than asked for: --max-pieces stopped the proof");
         }
