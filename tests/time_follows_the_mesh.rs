@@ -1,9 +1,10 @@
-//! Promise: no shape of a mesh makes its build take time out of proportion: a million components.
+//! Promise: no shape of a mesh makes its build take time out of proportion: a million components, stars of a hundred thousand triangles.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_precision_loss, reason = "coordinates below 2^24")]
 
-use nephrite::{BuildOptions, TriangleMesh, build};
+use nephrite::decimate::progressive::ProgressiveOptions;
+use nephrite::{Bound, BuildOptions, Method, TriangleMesh, build};
 use std::ops::ControlFlow::Continue;
 use std::time::{Duration, Instant};
 
@@ -27,4 +28,41 @@ fn of_a_million_components() {
     let elapsed = start.elapsed();
     assert!(elapsed < LONGEST, "{elapsed:?}");
     assert_eq!(built.mesh.triangles.len(), mesh.triangles.len());
+}
+
+/// The triangles from a hub to a ring of `n` vertices, which `place` puts somewhere for their angle and number.
+fn fan(n: u32, place: impl Fn(f32, u32) -> [f32; 3]) -> TriangleMesh {
+    let angle = |i: u32| i as f32 / n as f32 * std::f32::consts::TAU;
+    TriangleMesh {
+        positions: std::iter::once([0.0; 3]).chain((0..n).map(|i| place(angle(i), i))).collect(),
+        triangles: (0..n).map(|i| [0, 1 + i, 1 + (i + 1) % n]).collect(),
+        ..TriangleMesh::default()
+    }
+}
+
+#[test]
+fn of_a_star_of_a_hundred_thousand_triangles() {
+    // Numbers without a pattern, from 0 to 1.
+    let noise = |i: u32| (i.wrapping_mul(2_654_435_761) >> 16) as f32 / 65_536.0;
+    let disk = fan(100_000, |angle, _| [angle.cos(), angle.sin(), 0.0]);
+    let cone = fan(100_000, |angle, _| [angle.cos(), angle.sin(), 1.0]);
+    let rugged = fan(100_000, |angle, i| {
+        let radius = 1.0 + 0.3 * noise(i);
+        [radius * angle.cos(), radius * angle.sin(), 1.0 + 0.2 * noise(i + 7)]
+    });
+    let progressive = |pre_split| BuildOptions {
+        method: Method::Progressive,
+        bound: Bound::Accumulated,
+        progressive: ProgressiveOptions { pre_split, ..ProgressiveOptions::default() },
+        ..BuildOptions::default()
+    };
+    let ways = [BuildOptions::default(), progressive(false), progressive(true)];
+    for (shape, mesh) in [("disk", disk), ("cone", cone), ("rugged cone", rugged)] {
+        for options in &ways {
+            let start = Instant::now();
+            build(&mesh, options, &|_| Continue(())).unwrap();
+            let elapsed = start.elapsed();
+            assert!(elapsed < LONGEST, "{shape}, {:?}: {elapsed:?}", options.method);
+        }
+    }
 }

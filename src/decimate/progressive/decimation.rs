@@ -237,18 +237,23 @@ impl Decimation {
     }
 
     /// The star of `v` has changed. While many are queued a vertex among them is looked at when its turn comes: its error will rarely
-    /// have become less. Others are looked at at once, as one that waits for a split may be free now; a large star only when
-    /// an eighth of it may have changed.
+    /// have become less. Others are looked at at once, as one that waits for a split may be free now.
     pub(super) fn note_change(&mut self, v: u32) {
         self.changed_in[v as usize] = self.n_rounds;
         self.choices.forget(v);
         if self.queue.contains(v) && self.queue.len() >= MANY {
             return;
         }
+        self.evaluate_changed(v);
+    }
+
+    /// Looks at `v`, whose star has changed; where that is large and waits for its turn, only when an eighth of it may have changed.
+    pub(super) fn evaluate_changed(&mut self, v: u32) {
         let n_changes = &mut self.n_changes[v as usize];
         let valence = self.complex.star(v).len();
         *n_changes += 1;
-        if valence <= LARGE_VALENCE || *n_changes as usize * 8 >= valence {
+        let waits = self.queue.contains(v) || self.stuck.contains(v);
+        if valence <= LARGE_VALENCE || *n_changes as usize * 8 >= valence || !waits {
             *n_changes = 0;
             self.evaluate(v);
         }

@@ -131,12 +131,12 @@ impl Decimation {
         self.evaluate_corners(&slots);
     }
 
-    /// Looks at all corners of these triangles.
+    /// Looks at all corners of these triangles, whose names have changed.
     fn evaluate_corners(&mut self, slots: &[u32]) {
         let mut corners: Vec<u32> = slots.iter().flat_map(|&slot| self.complex.corners(slot)).collect();
         corners.sort_unstable();
         corners.dedup();
-        corners.into_iter().for_each(|v| self.evaluate(v));
+        corners.into_iter().for_each(|v| self.evaluate_changed(v));
     }
 
     /// Splits every vertex along its feature edges, and non-manifold ones into their fans (section 4.9).
