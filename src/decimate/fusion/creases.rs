@@ -210,23 +210,56 @@ impl Anchor {
     }
 }
 
-/// The vertices around a boundary vertex in their order, or `None` where they are not one closed ring.
+/// The vertices around a boundary vertex in their order, or `None` where they are not one closed ring. O(n log n).
 fn ring(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
-    let mut ring = vec![rim.first()?[0]];
-    for _ in 1..rim.len() {
-        let last = *ring.last()?;
-        let mut next = rim.iter().filter(|edge| edge[0] == last);
-        let (edge, None) = (next.next()?, next.next()) else { return None };
-        if ring.contains(&edge[1]) {
-            return None;
-        }
-        ring.push(edge[1]);
+    let mut edges = rim.to_vec();
+    let mut ends: Vec<u32> = rim.iter().map(|edge| edge[1]).collect();
+    edges.sort_unstable();
+    ends.sort_unstable();
+    // Each vertex once as a start and once as an end: a walk then comes back to where it began, or not at all.
+    if edges.iter().zip(&ends).any(|(edge, &end)| edge[0] != end)
+        || ends.windows(2).any(|pair| pair[0] == pair[1])
+    {
+        return None;
     }
-    let is_closed = rim.iter().any(|edge| Some(&edge[0]) == ring.last() && edge[1] == ring[0]);
-    is_closed.then_some(ring)
+    let start = rim.first()?[0];
+    let mut ring = vec![start];
+    let mut last = start;
+    loop {
+        let at = edges.binary_search_by_key(&last, |edge| edge[0]).ok()?;
+        last = edges[at][1];
+        if last == start {
+            break;
+        }
+        ring.push(last);
+    }
+    // Several rings would leave some out.
+    (ring.len() == rim.len()).then_some(ring)
 }
 
 /// Whether two edges that leave a vertex are one line that turns by less than the angle.
 fn goes_on(a: Vector, b: Vector, cos_angle: f64) -> bool {
     -dot(a, b) > cos_angle * (length_sq(a) * length_sq(b)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ring_is_all_edges_once_around() {
+        assert_eq!(ring(&[[3, 1], [7, 3], [1, 7]]), Some(vec![3, 1, 7]));
+        let broken: [&[[u32; 2]]; 6] = [
+            &[],
+            // Open, two rings, two ways on from 1, two ways into 1, one edge twice.
+            &[[3, 1], [1, 7]],
+            &[[3, 1], [1, 3], [5, 6], [6, 5]],
+            &[[3, 1], [1, 7], [1, 3], [7, 3]],
+            &[[3, 1], [7, 1], [1, 7]],
+            &[[3, 1], [3, 1], [1, 3]],
+        ];
+        for rim in broken {
+            assert_eq!(ring(rim), None, "{rim:?}");
+        }
+    }
 }
