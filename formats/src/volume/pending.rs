@@ -1,11 +1,10 @@
 //! The parts of a volume as a reader finds them, put together at the end of the file.
 
-use std::collections::HashMap;
-
 use super::cells::Cells;
 use super::scalars::{Numbers, points_f32};
 use super::{VolumeReport, VolumeWarning};
 use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
+use crate::distinct::DistinctNames;
 use crate::{Attribute, MeshError, TetrahedronMesh};
 
 /// Points in the precision of the file.
@@ -47,8 +46,7 @@ impl Points {
 #[derive(Default)]
 pub(super) struct Fields {
     fields: Vec<Attribute>,
-    /// Names of the fields, each with the number that the next field of that name tries first: all below it are taken.
-    numbers: HashMap<String, u64>,
+    names: DistinctNames,
 }
 
 impl Fields {
@@ -71,7 +69,7 @@ impl Fields {
         }
         let name = if name.is_empty() { "field" } else { name };
         // The `.neph` file ends names with a zero byte.
-        let new_name = self.free_name(&name.replace('\0', "\u{fffd}"));
+        let new_name = self.names.take(name.replace('\0', "\u{fffd}"));
         if new_name != name {
             let (name, new_name) = (name.to_owned(), new_name.clone());
             report.warnings.push(VolumeWarning::FieldRenamed { name, new_name });
@@ -82,22 +80,6 @@ impl Fields {
             report.warnings.push(VolumeWarning::FieldNarrowed { name: new_name.clone(), scalar });
         }
         self.fields.push(Attribute { name: new_name, scalar, n_components, bytes });
-    }
-
-    /// Takes a name, with the least free number from 2 on behind it where another field has it. No number is tried twice for one
-    /// name, so that thousands of fields of one name cost no more than others.
-    fn free_name(&mut self, name: &str) -> String {
-        let mut number = self.numbers.get(name).copied().unwrap_or(1);
-        let free = loop {
-            let tried = if number == 1 { name.to_owned() } else { format!("{name}_{number}") };
-            number += 1;
-            if !self.numbers.contains_key(&tried) {
-                break tried;
-            }
-        };
-        self.numbers.insert(free.clone(), 2);
-        self.numbers.insert(name.to_owned(), number);
-        free
     }
 }
 
