@@ -9,11 +9,19 @@
 //! * `progressive`: progressive decimation beside vtkDecimatePro, and its stream beside other codecs.
 //! * `figure7`: its collapses and splits beside those of its paper.
 //! * `any_count`: is every step of it a mesh in order, on any input?
+//! * `volume_steps`: is every step of a fusion a whole volume, and what does a fusion take away?
 //! * `parts`: parts for a database, millions of triangles in all.
+//!
+//! Scripts beside it, for what only Python has:
+//!
+//! * `metro_check.py`: stated errors of levels against distances sampled by MeshLab.
+//! * `volumes_check.py`: fusion beside VTK: time, boundary and field error at equal counts.
+//! * `volumes_read_back.py`: levels of volumes as pyvista reads them, and the rate of their extraction.
 //!
 //! This crate is a workspace of its own: building or testing the project builds none of it.
 
 pub mod anchors;
+pub mod boundary_walk;
 pub mod chain;
 mod error;
 mod every_level;
