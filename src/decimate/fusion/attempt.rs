@@ -20,7 +20,11 @@ pub(super) struct Accepted {
 /// How much the squared error of the boundary counts beside the squared distances to planes. That error is a bound and adds up,
 /// which the other terms of a cost are not. Fields add up in a cost: with each the boundary counts once more, so that it does not
 /// lose against many.
-const ERROR_WEIGHT: f64 = 1.5e3;
+const ERROR_WEIGHT: f64 = 1.25e3;
+
+/// How many times dearer a fusion would be that takes all of the volume that may be lost still: what is scarce is left to those that
+/// need little of it.
+const SCARCITY: f64 = 100.0;
 
 impl State {
     /// The quadric error of a fusion at the best point. A lower bound of what it costs where the boundary takes part.
@@ -107,16 +111,26 @@ impl State {
         let error_weight = ERROR_WEIGHT * self.metric.n_fields().max(1) as f64 * (xx + yy + zz);
         let mut best: Option<Accepted> = None;
         let mut consider = |point: [f32; 3], quadric_error: f64| {
-            let p = point.map(f64::from);
-            let Some(fit) = self.patch.fit(p).filter(|fit| fit.outside <= self.slack) else { return };
-            let error = before + fit.distance;
-            let cost = quadric_error.max(0.0) + error_weight * error * error;
-            if error > self.max_error || best.as_ref().is_some_and(|best| best.cost <= cost) {
+            let cost = |error: f64| quadric_error.max(0.0) + error_weight * error * error;
+            let is_beaten = |error: f64| {
+                error > self.max_error || best.as_ref().is_some_and(|best| best.cost <= cost(error))
+            };
+            // What costs least is asked first.
+            if is_beaten(before) {
                 return;
             }
+            let p = point.map(f64::from);
             let Some(after) = self.neighbourhood.six_volumes(p) else { return };
             let six_volumes_lost = six_volumes - after;
-            if six_volumes_lost <= self.six_volumes_left {
+            if six_volumes_lost > self.six_volumes_left {
+                return;
+            }
+            let Some(fit) = self.patch.fit(p).filter(|fit| fit.outside <= self.slack) else { return };
+            let error = before + fit.distance;
+            let share_lost =
+                if six_volumes_lost > 0.0 { six_volumes_lost / self.six_volumes_left } else { 0.0 };
+            let cost = cost(error) * (1.0 + SCARCITY * share_lost);
+            if error <= self.max_error && best.as_ref().is_none_or(|best| cost < best.cost) {
                 best = Some(Accepted { point, error, six_volumes_lost, cost });
             }
         };

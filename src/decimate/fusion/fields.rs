@@ -17,6 +17,8 @@ pub(super) struct Fields {
     deviations: Vec<f64>,
     /// The components that the metric weighs.
     columns: Vec<Column>,
+    /// Whether other components vary.
+    is_interpolated: bool,
     /// The largest deviation of each field anywhere so far.
     pub worst: Vec<f64>,
     scratch: Vec<f64>,
@@ -59,8 +61,11 @@ impl Fields {
             first += shape.n_components;
         }
         let n_fields = shapes.len();
+        let columns = columns(&shapes, n_values, &values, length);
+        let n_varying = (0..n_values).filter(|&place| is_varying(range(&values, n_values, place))).count();
         Self {
-            columns: columns(&shapes, n_values, &values, length),
+            is_interpolated: n_varying > columns.len(),
+            columns,
             shapes,
             n_values,
             values,
@@ -104,22 +109,36 @@ impl Fields {
         p: [f32; 3],
         best_value: impl Fn(usize) -> Option<f64>,
     ) {
-        if self.n_values == 0 {
-            return;
-        }
+        let Some(&first) = fused.first().filter(|_| self.n_values > 0) else { return };
         let start = self.values.len();
         if let Some(&same) = fused.iter().find(|&&v| mesh.positions()[v as usize] == p) {
             let row = same as usize * self.n_values;
             self.values.extend_from_within(row..row + self.n_values);
             return;
         }
+        // Components that do not vary have the same value everywhere.
+        let row = first as usize * self.n_values;
+        self.values.extend_from_within(row..row + self.n_values);
+        if self.is_interpolated || best_value(0).is_none() {
+            self.interpolate_last(mesh, neighbourhood, p.map(f64::from));
+        }
+        let new = &mut self.values[start..];
+        for (i, column) in self.columns.iter().enumerate() {
+            if let Some(value) = best_value(i) {
+                let [low, high] = column.range;
+                new[column.place] = (value / column.scale).clamp(low, high);
+            }
+        }
+    }
+
+    /// Gives the last vertex the values that the mesh before the fusion has at `p`.
+    fn interpolate_last(&mut self, mesh: &Tetrahedra, neighbourhood: &Neighbourhood, p: Vector) {
         let affected = neighbourhood.affected.iter().map(|affected| affected.slot);
         let slots = neighbourhood.deleted.iter().copied().chain(affected);
-        let point = p.map(f64::from);
         let mut best = None;
         let mut best_inside = f64::NEG_INFINITY;
         for corners in slots.filter_map(|slot| mesh.get(slot)) {
-            let Some(weights) = barycentric(point, corners.map(|v| mesh.position(v))) else { continue };
+            let Some(weights) = barycentric(p, corners.map(|v| mesh.position(v))) else { continue };
             let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
             if inside > best_inside {
                 (best_inside, best) = (inside, Some((corners, weights)));
@@ -128,16 +147,10 @@ impl Fields {
                 break;
             }
         }
-        self.values.resize(start + self.n_values, 0.0);
         let Some((corners, weights)) = best else { return };
-        let (old, new) = self.values.split_at_mut(start);
+        let last = self.values.len() - self.n_values;
+        let (old, new) = self.values.split_at_mut(last);
         interpolate(old, self.n_values, corners, weights, new);
-        for (i, column) in self.columns.iter().enumerate() {
-            if let Some(value) = best_value(i) {
-                let [low, high] = column.range;
-                new[column.place] = (value / column.scale).clamp(low, high);
-            }
-        }
     }
 
     /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their values are from those that the
@@ -212,7 +225,7 @@ fn columns(shapes: &[Shape], n_values: usize, values: &[f64], length: f64) -> Ve
         let ranges: Vec<[f64; 2]> = components.clone().map(|place| range(values, n_values, place)).collect();
         let widest = ranges.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
         if widest > 0.0 && widest.is_finite() && length > 0.0 {
-            let varying = components.zip(ranges).filter(|(_, [low, high])| high > low);
+            let varying = components.zip(ranges).filter(|&(_, range)| is_varying(range));
             columns.extend(varying.map(|(place, range)| Column { place, scale: length / widest, range }));
         }
     }
@@ -225,6 +238,10 @@ fn range(values: &[f64], n_values: usize, place: usize) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
         if value.is_finite() { [low.min(value), high.max(value)] } else { [f64::NEG_INFINITY, f64::INFINITY] }
     })
+}
+
+fn is_varying([low, high]: [f64; 2]) -> bool {
+    high > low
 }
 
 fn interpolate(values: &[f64], n_values: usize, corners: [u32; 4], weights: [f64; 4], into: &mut [f64]) {

@@ -16,6 +16,7 @@
 
 mod attempt;
 mod creases;
+mod edges;
 mod fields;
 mod fusion_point;
 mod metric;
