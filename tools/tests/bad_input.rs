@@ -192,3 +192,20 @@ fn degenerate_and_duplicate_triangles_are_repaired_and_counted() {
     assert_eq!(level["triangles"], 4);
     assert_eq!(level["vertices"], 4);
 }
+
+#[test]
+fn files_that_are_read_beside_the_mesh_are_not_replaced() {
+    let place = Workplace::new();
+    for name in ["a.ele", "a.node", "grid.p3d", "q.bin"] {
+        place.write(name, "something");
+    }
+    for line in [
+        "build a.ele -o a.node",
+        "build a.node -o a.ele",
+        "build grid.p3d --solution q.bin -o q.bin",
+        "build grid.p3d --solution q.bin -o grid.p3d",
+    ] {
+        let failure = place.failure(line);
+        assert!(failure.ends_with("is the input, which the output would replace"), "{line}: {failure}");
+    }
+}

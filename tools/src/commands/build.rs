@@ -9,7 +9,7 @@ use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::progressive_mesh::encode;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
 use nephrite::{Build, BuildOptions, TriangleMesh};
-use nephrite_formats::ReadReport;
+use nephrite_formats::{ReadReport, VolumeFormat};
 use serde_json::{Value, json};
 
 use super::build_volume::{FusionArguments, Request};
@@ -177,6 +177,16 @@ impl Arguments {
         self.output.as_deref().unwrap_or(Path::new(""))
     }
 
+    /// That the file can be written and would replace nothing that is read, TetGen's other file included.
+    fn check_output(&self) -> Result<(), Failure> {
+        let others = ["ele", "node"].map(|extension| self.mesh.with_extension(extension));
+        let is_in_two = VolumeFormat::from_path(&self.mesh) == Some(VolumeFormat::Tetgen);
+        let others = others.iter().filter(|_| is_in_two);
+        let inputs = std::iter::once(&self.mesh).chain(self.fusion.solutions()).chain(others);
+        let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+        files::check_output(self.output(), &inputs)
+    }
+
     /// All meshes that were named.
     pub(super) fn parts(&self) -> impl Iterator<Item = &PathBuf> {
         std::iter::once(&self.mesh).chain(&self.more)
@@ -231,7 +241,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     if let Some(folder) = &arguments.output_dir {
         return arguments.threads.run(|| database::run(arguments, folder))?;
     }
-    files::check_output(arguments.output(), &[&arguments.mesh])?;
+    arguments.check_output()?;
     arguments.threads.run(|| {
         if arguments.is_of_volume() {
             return arguments.volume().run();

@@ -39,6 +39,13 @@ pub(super) struct FusionArguments {
     solution: Vec<PathBuf>,
 }
 
+impl FusionArguments {
+    /// Files that are read beside the mesh.
+    pub(super) fn solutions(&self) -> &[PathBuf] {
+        &self.solution
+    }
+}
+
 fn not_negative(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a number that is not negative", |value| value >= 0.0)
 }
