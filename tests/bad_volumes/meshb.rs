@@ -77,7 +77,12 @@ fn headers() -> Cases {
 
 fn offsets() -> Cases {
     let at = file(false).at_next_of_vertices;
+    let at_n_tetrahedra = file(false).at_n_tetrahedra;
     vec![
+        (
+            "binary-offset-into-the-tetrahedra",
+            with(at_n_tetrahedra - 4, i32::try_from(at_n_tetrahedra + 4).unwrap()),
+        ),
         ("binary-offset-backwards", with(at, 8)),
         ("binary-offset-of-itself", with(at, 20)),
         ("binary-offset-into-the-vertices", with(at, 60)),

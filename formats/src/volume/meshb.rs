@@ -53,15 +53,20 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), Mesh
             5..=7 => report.n_cells_ignored += reader.count(1)?,
             _ => {
                 if let Some(kind) = solid(keyword) {
-                    let n = reader.count((kind.n_corners() + 1) * reader.integer_bytes())?;
+                    let size_bytes = (kind.n_corners() + 1) * reader.integer_bytes();
+                    let n = reader.count(size_bytes)?;
                     elements.push((kind, n, reader.at));
+                    // No element is in two lists: few bytes would make many.
+                    reader.at += n * size_bytes;
                 }
             }
         }
         match next {
             0 => break,
-            next if next >= reader.at => reader.at = next,
-            _ => return Err(reader.unexpected("an offset behind this keyword", next.to_string())),
+            next if (reader.at..=bytes.len()).contains(&next) => reader.at = next,
+            _ => {
+                return Err(reader.unexpected("an offset behind this keyword, in the file", next.to_string()));
+            }
         }
     }
     let n_points = points.len() / 3;
@@ -277,6 +282,22 @@ mod tests {
                 assert_eq!((report.n_cells_ignored, report.warnings.len()), (1, 1));
             }
         }
+    }
+
+    #[test]
+    fn lists_that_share_bytes_and_offsets_beyond_the_file_are_refused() {
+        let bytes = sample(3, false);
+        let keyword = bytes.windows(4).rposition(|word| word == [8, 0, 0, 0]).unwrap();
+        let with_next = |next: u64| {
+            let mut changed = bytes.clone();
+            changed[keyword + 4..keyword + 12].copy_from_slice(&next.to_le_bytes());
+            read(&changed)
+        };
+        let behind_count = keyword as u64 + 16;
+        for next in [behind_count, behind_count + 39, bytes.len() as u64 + 1, u64::MAX - 2, u64::MAX] {
+            assert!(matches!(with_next(next), Err(MeshError::Unexpected { .. })), "{next}");
+        }
+        assert!(with_next(behind_count + 40).is_ok());
     }
 
     #[test]
