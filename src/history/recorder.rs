@@ -17,6 +17,14 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         Self { history, birth_in_slot: vec![0; n_slots] }
     }
 
+    /// Makes room for so many simplices in all, so that none is moved while they come.
+    pub fn reserve(&mut self, n_simplices: usize) {
+        let History { simplices, birth, death, .. } = &mut self.history;
+        simplices.reserve(n_simplices);
+        birth.reserve(n_simplices);
+        death.reserve(n_simplices);
+    }
+
     /// Starts the next step. Its error is `error`, or that of the step before if that is larger.
     pub fn step(&mut self, error: f64) {
         let last = self.history.errors.last().copied().unwrap_or_default();

@@ -59,6 +59,8 @@ pub(super) struct Metric {
     stride: usize,
     n_fields: usize,
     numbers: Vec<f64>,
+    /// The row of each vertex in `numbers`. A fusion point has that of a fused vertex, whose numbers nobody asks for again.
+    rows: Vec<u32>,
     /// `w` of every tetrahedron that has a volume.
     field_weight: f64,
     /// Subtracted from every position, against cancellation.
@@ -70,9 +72,11 @@ impl Metric {
     pub(super) fn new(mesh: &Tetrahedra, centre: Vector, n_fields: usize, fields: &[f64]) -> Self {
         let stride = if n_fields == 0 { 10 } else { 11 + 4 * n_fields };
         let numbers = vec![0.0; stride * mesh.n_vertices()];
+        #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
+        let rows = (0..mesh.n_vertices() as u32).collect();
         let squared_areas: f64 = mesh.iter().map(|(_, corners)| squared_areas(mesh, corners)).sum();
         let field_weight = squared_areas / mesh.n_alive().max(1) as f64;
-        let mut metric = Self { stride, n_fields, numbers, field_weight, centre };
+        let mut metric = Self { stride, n_fields, numbers, rows, field_weight, centre };
         for (slot, corners) in mesh.iter() {
             metric.add_tetrahedron(mesh, slot, corners, fields);
         }
@@ -98,11 +102,12 @@ impl Metric {
         let gradients = normals.map(|normal| normal.map(|x| -x / six_volumes));
         let weight = if six_volumes.abs() > 0.0 { self.field_weight } else { 0.0 };
         for (i, &v) in corners.iter().enumerate() {
-            let numbers = &mut self.numbers[v as usize * self.stride..][..self.stride];
+            let has_fields = self.n_fields > 0;
+            let numbers = self.row_mut(v);
             for (number, (all, own)) in numbers.iter_mut().zip(sum.numbers().zip(planes[i].numbers())) {
                 *number += all - own;
             }
-            if self.n_fields > 0 && weight > 0.0 {
+            if has_fields && weight > 0.0 {
                 numbers[10] += weight;
             }
         }
@@ -128,7 +133,7 @@ impl Metric {
             let offset = values[0] - dot(gradient, points[0]);
             let quadric = Quadric::plane(gradient, offset, weight);
             for &v in &corners {
-                let numbers = &mut self.numbers[v as usize * self.stride..][..self.stride];
+                let numbers = self.row_mut(v);
                 numbers.iter_mut().zip(quadric.numbers()).for_each(|(number, value)| *number += value);
                 let sums = &mut numbers[11 + 4 * field..][..4];
                 (0..3).for_each(|axis| sums[axis] += weight * gradient[axis]);
@@ -144,7 +149,7 @@ impl Metric {
 
     /// The quadric of a fusion of these vertices, best values of the fields taken for granted.
     pub(super) fn of(&self, vertices: &[u32]) -> Quadric {
-        let rows = |v: &u32| &self.numbers[*v as usize * self.stride..][..self.stride];
+        let rows = |v: &u32| self.row(*v);
         let mut sum = [0.0; 11];
         let n_shared = self.stride.min(11);
         for row in vertices.iter().map(rows) {
@@ -170,7 +175,7 @@ impl Metric {
         let mut weight = 0.0;
         let mut sum = 0.0;
         for &v in vertices {
-            let row = &self.numbers[v as usize * self.stride..][..self.stride];
+            let row = self.row(v);
             let [x, y, z, d] = std::array::from_fn(|i| row[11 + 4 * field + i]);
             weight += self.weight(v);
             sum += dot([x, y, z], p) + d;
@@ -188,18 +193,31 @@ impl Metric {
 
     /// Sum of the weights of the tetrahedra that a vertex stands for.
     fn weight(&self, v: u32) -> f64 {
-        if self.n_fields == 0 { 0.0 } else { self.numbers[v as usize * self.stride + 10] }
+        if self.n_fields == 0 { 0.0 } else { self.row(v)[10] }
     }
 
-    /// Adds a vertex that takes the place of others: the sum of theirs.
+    /// Adds a vertex that takes the place of others: the sum of theirs, in the row of the first.
     pub(super) fn add_vertex(&mut self, replaced: &[u32]) {
-        let start = self.numbers.len();
-        self.numbers.resize(start + self.stride, 0.0);
-        let (old, new) = self.numbers.split_at_mut(start);
-        for &v in replaced {
-            let row = &old[v as usize * self.stride..][..self.stride];
-            new.iter_mut().zip(row).for_each(|(sum, value)| *sum += value);
+        let Some((&first, others)) = replaced.split_first() else { return };
+        let stride = self.stride;
+        let sum = self.rows[first as usize];
+        let start = sum as usize * stride;
+        for &v in others {
+            let row = self.rows[v as usize] as usize * stride;
+            for i in 0..stride {
+                self.numbers[start + i] += self.numbers[row + i];
+            }
         }
+        self.rows.push(sum);
+    }
+
+    #[inline(always)]
+    fn row(&self, v: u32) -> &[f64] {
+        &self.numbers[self.rows[v as usize] as usize * self.stride..][..self.stride]
+    }
+
+    fn row_mut(&mut self, v: u32) -> &mut [f64] {
+        &mut self.numbers[self.rows[v as usize] as usize * self.stride..][..self.stride]
     }
 
     /// A point in the coordinates of the quadrics.
