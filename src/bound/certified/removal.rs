@@ -8,6 +8,7 @@ use crate::bound::covered::{Covered, Over};
 use crate::bound::removed::nearest;
 use crate::geometry::distance::{Segment, point_triangle_distance_sq};
 use crate::geometry::vector::Vector;
+use std::ops::ControlFlow;
 
 /// A hole, its filling, and what the map is before the removal.
 #[derive(Clone, Copy)]
@@ -18,9 +19,12 @@ pub(super) struct Removal<'a> {
 }
 
 impl Removal<'_> {
-    /// Index in the star of the triangle in `slot`.
+    /// Index in the star of the triangle in `slot`. Looks at all of it: where a search would end cannot be foretold.
+    #[inline]
     pub(super) fn star_index(&self, slot: u32) -> Option<usize> {
-        self.replacement.hole.slots.iter().position(|&s| s == slot)
+        let slots = self.replacement.hole.slots.iter().enumerate();
+        let found = slots.fold(usize::MAX, |found, (at, &other)| if other == slot { at } else { found });
+        (found != usize::MAX).then_some(found)
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "ring indices stay below MAX_VALENCE + 1")]
@@ -30,34 +34,60 @@ impl Removal<'_> {
         found.unwrap_or_default() as u8
     }
 
-    /// Source edges whose chain, old or new, has more than one portion and passes through the hole, given where the vertices
-    /// go; each once. A chain is met in the slot of its first portion there; an edge without one at its ends, both of which
-    /// are corners of the star or mapped into it.
-    pub(super) fn moved_edges<'a>(self, labels: &'a Labels) -> impl Iterator<Item = u32> + 'a
-    where
-        Self: 'a,
-    {
-        let Removal { certified, replacement: Replacement { hole, .. }, covered } = self;
-        let Certified { source, chains, contents, .. } = certified;
-        let first_here = move |edge: u32| {
-            let slots = chains.of(edge).iter().map(|portion| portion.slot);
-            { slots }.find(|&slot| self.star_index(slot).is_some())
-        };
-        let chained = hole.slots.iter().flat_map(move |&slot| {
-            contents.edges(slot).iter().copied().filter(move |&edge| first_here(edge) == Some(slot))
-        });
-        let split = covered.vertices.iter().flat_map(move |&v| {
+    /// Shows `take` the source edges whose chain, old or new, has more than one portion and passes through the hole, given where
+    /// the vertices go; each once, until it breaks.
+    #[inline]
+    pub(super) fn try_each_moved_edge(
+        &self,
+        labels: &Labels,
+        mut take: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.try_each_chained_edge(&mut take)?;
+        self.try_each_split_edge(labels, &mut take)
+    }
+
+    /// Edges with a chain through the star. Each is met in the slot of its first portion there.
+    #[inline]
+    fn try_each_chained_edge(&self, take: &mut impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
+        let Certified { chains, contents, .. } = self.certified;
+        for &slot in &self.replacement.hole.slots {
+            for &edge in contents.edges(slot) {
+                let here = chains.of(edge).iter().find(|portion| self.star_index(portion.slot).is_some());
+                if here.is_some_and(|portion| portion.slot == slot) {
+                    take(edge)?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Edges without a chain that are to get one. Both ends are corners of the star or mapped into it: each is met at its lower
+    /// end, or at the only one that is mapped.
+    #[inline]
+    fn try_each_split_edge(
+        &self,
+        labels: &Labels,
+        take: &mut impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Certified { source, chains, .. } = self.certified;
+        for &v in &self.covered.vertices {
             let label = labels.get(v).unwrap_or_default();
-            let up = source.up(v).filter(move |&(_, other)| match labels.get(other) {
-                Some(other_label) => other_label != label,
-                None => !self.has_corner(label, other),
-            });
-            let is_split_below =
-                move |other: u32| labels.get(other).is_none() && !self.has_corner(label, other);
-            let down = source.down(v).filter(move |&(_, other)| is_split_below(other));
-            up.chain(down).map(|(edge, _)| edge).filter(|&edge| !chains.has(edge))
-        });
-        chained.chain(split)
+            for (edge, other) in source.up(v) {
+                let is_split = match labels.get(other) {
+                    Some(other_label) => other_label != label,
+                    None => !self.has_corner(label, other),
+                };
+                if is_split && !chains.has(edge) {
+                    take(edge)?;
+                }
+            }
+            for (edge, other) in source.down(v) {
+                if labels.get(other).is_none() && !self.has_corner(label, other) && !chains.has(edge) {
+                    take(edge)?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
     }
 
     /// The triangle that the covered vertex at index `at` lies over, or else the nearest one, and its squared distance.

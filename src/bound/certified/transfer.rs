@@ -7,6 +7,7 @@ use super::route::{Destinations, Route};
 use crate::bound::{REACH, Replacement};
 use crate::geometry::distance::point_segment_distance_sq;
 use crate::mesh::MAX_VALENCE;
+use std::ops::ControlFlow;
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
@@ -91,13 +92,14 @@ impl Transfer {
             return largest_sq;
         }
         let Self { destinations, route, .. } = self;
-        for edge in removal.moved_edges(&destinations.labels) {
+        let _ = removal.try_each_moved_edge(&destinations.labels, |edge| {
             largest_sq = largest_sq.max(route.find(destinations, removal, edge));
             if largest_sq > limit_sq {
-                break;
+                return ControlFlow::Break(());
             }
             take(edge, &mut route.portions);
-        }
+            ControlFlow::Continue(())
+        });
         largest_sq
     }
 
