@@ -7,6 +7,9 @@ use crate::mesh::{Hole, Surface};
 /// Most ring vertices of a hole for which sides are kept: `n (n-1) / 2` of them fit 64 bits.
 pub const MAX_CORNERS: usize = 11;
 
+/// Most vertices of a hole that are asked about each triangle that might fill it.
+const MAX_ASKED: usize = 128;
+
 /// Source vertices over a hole.
 ///
 /// In the hole's average plane, each ring pair `i < j` is a line, and one bit per vertex tells on which side of it the
@@ -65,6 +68,11 @@ impl Covered {
         self.flat.clear();
         self.flat.extend(self.points.iter().map(|&p| flatten(p)));
         find_sides(&self.flat, &self.ring, &mut self.sides);
+        // A few from everywhere to the front: the ones that are asked.
+        let n = self.sides.len();
+        if n > MAX_ASKED {
+            (0..MAX_ASKED).for_each(|at| self.swap(at, at * n / MAX_ASKED));
+        }
     }
 
     /// Whether sides are known.
@@ -84,13 +92,14 @@ impl Covered {
         self.sides.get(at).is_some_and(|sides| sides & over.mask == over.sides)
     }
 
-    /// Largest of `value` among the points over a triangle, or the first one found above `cutoff`. A point that ends the search moves
+    /// Largest of `value` among the points over a triangle, or the first one found above `cutoff`. Of many points some hundred are
+    /// asked: enough to choose a triangle by, not to prove anything. A point that ends the search moves
     /// half way to the front: what is too far from one triangle is likely to be so from others, and is found sooner there.
     #[inline]
     pub fn largest_over(&mut self, over: Over, cutoff: f64, value: impl Fn(Vector) -> f64) -> f64 {
         let mut largest = 0.0_f64;
         let mut last = None;
-        for (at, (&sides, &p)) in self.sides.iter().zip(&self.points).enumerate() {
+        for (at, (&sides, &p)) in self.sides.iter().take(MAX_ASKED).zip(&self.points).enumerate() {
             if sides & over.mask == over.sides {
                 largest = largest.max(value(p));
                 if largest > cutoff {

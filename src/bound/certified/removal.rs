@@ -91,11 +91,9 @@ impl Removal<'_> {
     }
 
     /// The triangle that the covered vertex at index `at` lies over, or else the nearest one, and its squared distance.
-    pub(super) fn near(&self, at: usize, p: Vector) -> (u8, f64) {
+    pub(super) fn near(&self, at: usize, p: Vector, overs: &[Over]) -> (u8, f64) {
         let Replacement { hole, filling, .. } = self.replacement;
-        let is_over = |&(_, &triangle): &(u8, &[u8; 3])| self.covered.is_over(at, Over::new(triangle));
-        let candidates = if self.covered.has_sides() { filling.triangles.as_slice() } else { &[] };
-        match (0..).zip(candidates).find(is_over) {
+        match (0..).zip(overs).find(|&(_, &over)| self.covered.is_over(at, over)) {
             Some((label, _)) => (label, point_triangle_distance_sq(p, &filling.triangle(hole, label.into()))),
             None => self.nearest(p),
         }

@@ -4,6 +4,7 @@ use super::NOT_ON_RIM;
 use super::chains::Portion;
 use super::removal::Removal;
 use super::route::{Destinations, Route};
+use crate::bound::covered::Over;
 use crate::bound::{REACH, Replacement};
 use crate::geometry::distance::point_segment_distance_sq;
 use crate::mesh::MAX_VALENCE;
@@ -14,6 +15,8 @@ use std::ops::ControlFlow;
 pub struct Transfer {
     destinations: Destinations,
     route: Route,
+    /// Which vertices lie over each triangle of the filling, where that is known.
+    overs: Vec<Over>,
     /// A change while it is not known whether it is needed: most removals end above the limit.
     draft: Change,
 }
@@ -110,11 +113,15 @@ impl Transfer {
         let Destinations { tree, labels } = &mut self.destinations;
         tree.build(hole, filling);
         labels.start(surface.n_vertices());
+        self.overs.clear();
+        if covered.has_sides() {
+            self.overs.extend(filling.triangles.iter().map(|&triangle| Over::new(triangle)));
+        }
         let mut largest_sq = 0.0_f64;
         for (at, (&v, &p)) in covered.vertices.iter().zip(&covered.points).enumerate() {
             let (label, distance_sq) = match removal.rim_edge(v) {
                 Some(i) => (tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
-                None => removal.near(at, p),
+                None => removal.near(at, p, &self.overs),
             };
             labels.set(v, label);
             largest_sq = largest_sq.max(distance_sq);
