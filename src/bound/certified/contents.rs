@@ -4,100 +4,74 @@
 //! a chain may be shortened where it no longer needs a triangle. So the contents of a slot are written once, side by side, and an
 //! edge may be listed in a slot that its chain has left since: whoever reads asks the chain.
 
-/// Nothing in the slot.
-const NONE: u32 = u32::MAX;
+use super::records::{HEADER, Records};
 
-/// Source vertices in each slot, and source edges whose chain has a portion there.
-///
-/// Memory: 4 bytes per slot, 4 per vertex, edge through a slot and slot in use twice, and half as much again in gaps at most.
+/// Source vertices in each slot, and source edges whose chain has a portion there: [`Records`] of slots, which are the number of
+/// vertices, the vertices and the edges.
 #[derive(Clone, Debug)]
-pub struct Contents {
-    /// Where the record of each slot starts in `words`.
-    first: Vec<u32>,
-    /// Records: the number of vertices, the number of edges, the vertices, the edges.
-    words: Vec<u32>,
-    n_used: usize,
-}
+pub struct Contents(Records);
 
 impl Contents {
     /// Nothing, in any of `n_slots` slots.
     pub fn new(n_slots: usize) -> Self {
-        Self { first: vec![NONE; n_slots], words: vec![], n_used: 0 }
+        Self(Records::new(n_slots))
     }
 
     /// Source vertices whose image is in the triangle in `slot`.
     #[inline]
     pub fn vertices(&self, slot: u32) -> &[u32] {
-        match self.words.get(self.first[slot as usize] as usize..) {
-            Some([n_vertices, _, rest @ ..]) => &rest[..*n_vertices as usize],
-            _ => &[],
-        }
+        self.of(slot).0
     }
 
     /// Source edges that had a portion in the triangle in `slot` when it was born, each once.
     #[inline]
     pub fn edges(&self, slot: u32) -> &[u32] {
-        match self.words.get(self.first[slot as usize] as usize..) {
-            Some([n_vertices, n_edges, rest @ ..]) => &rest[*n_vertices as usize..][..*n_edges as usize],
-            _ => &[],
-        }
+        self.of(slot).1
     }
 
-    /// Entries of the pool, gaps included: at most [`MAX_PLACES`](crate::mesh::MAX_PLACES), which whoever fills slots sees to. A slot
-    /// takes two more than it has vertices and edges.
+    /// Words that all contents take.
     #[inline]
-    pub fn n_entries(&self) -> usize {
-        self.words.len()
+    pub fn n_words(&self) -> usize {
+        self.0.n_words()
+    }
+
+    /// Words that the contents of so many slots take, with so many vertices and edges in all.
+    #[inline]
+    pub fn n_words_of(n_slots: usize, n_mapped: usize) -> usize {
+        (HEADER + 1) * n_slots + n_mapped
     }
 
     /// Empties `slot`.
     pub fn clear(&mut self, slot: u32) {
-        if self.first[slot as usize] != NONE {
-            self.n_used -= self.record(slot).len();
-            self.first[slot as usize] = NONE;
+        self.0.clear(slot);
+    }
+
+    /// Fills `slot` with as many vertices and edges as the iterators tell.
+    #[expect(clippy::cast_possible_truncation, reason = "words are at most MAX_PLACES")]
+    pub fn fill(
+        &mut self,
+        slot: u32,
+        vertices: impl ExactSizeIterator<Item = u32>,
+        edges: impl ExactSizeIterator<Item = u32>,
+    ) {
+        let (n_vertices, n_edges) = (vertices.len(), edges.len());
+        if n_vertices + n_edges > 0 {
+            let words = std::iter::once(n_vertices as u32).chain(vertices).chain(edges);
+            self.0.set(slot, 1 + n_vertices + n_edges, words);
         }
     }
 
-    /// Fills `slot`, which is empty.
-    #[expect(clippy::cast_possible_truncation, reason = "entries are at most MAX_PLACES")]
-    pub fn fill(&mut self, slot: u32, vertices: impl Iterator<Item = u32>, edges: impl Iterator<Item = u32>) {
-        let start = self.words.len();
-        self.words.extend([0; 2]);
-        self.words.extend(vertices);
-        let n_vertices = self.words.len() - start - 2;
-        self.words.extend(edges);
-        let n_edges = self.words.len() - start - 2 - n_vertices;
-        if n_vertices + n_edges == 0 {
-            self.words.truncate(start);
-            return;
-        }
-        self.words[start] = n_vertices as u32;
-        self.words[start + 1] = n_edges as u32;
-        self.first[slot as usize] = start as u32;
-        self.n_used += self.words.len() - start;
-    }
-
-    /// Closes the gaps once they make up a third of the memory, with the records in the order of their slots. O(slots) when it
-    /// works, O(1) otherwise.
-    #[expect(clippy::cast_possible_truncation, reason = "not more than before")]
+    /// Gives back memory that former contents left behind. See [`Records::compact`].
     pub fn compact(&mut self) {
-        if self.words.len() < self.n_used + self.n_used / 2 + 1024 {
-            return;
-        }
-        let mut words = Vec::with_capacity(self.n_used + self.n_used / 2 + 1024);
-        for slot in 0..self.first.len() {
-            if self.first[slot] != NONE {
-                let start = words.len() as u32;
-                words.extend_from_slice(self.record(slot as u32));
-                self.first[slot] = start;
-            }
-        }
-        self.words = words;
+        self.0.compact();
     }
 
-    fn record(&self, slot: u32) -> &[u32] {
-        let n_words = 2 + self.vertices(slot).len() + self.edges(slot).len();
-        &self.words[self.first[slot as usize] as usize..][..n_words]
+    #[inline]
+    fn of(&self, slot: u32) -> (&[u32], &[u32]) {
+        match self.0.of(slot) {
+            [n_vertices, rest @ ..] => rest.split_at(*n_vertices as usize),
+            [] => (&[], &[]),
+        }
     }
 }
 
@@ -114,14 +88,11 @@ mod tests {
         ) {
             let mut contents = Contents::new(5);
             let mut lists = vec![(vec![], vec![]); 5];
-            for (at, (slot, vertices, edges)) in fillings.into_iter().enumerate() {
+            for (slot, vertices, edges) in fillings {
                 contents.clear(slot);
                 prop_assert!(contents.vertices(slot).is_empty() && contents.edges(slot).is_empty());
                 contents.fill(slot, vertices.iter().copied(), edges.iter().copied());
                 lists[slot as usize] = (vertices, edges);
-                if at % 4 == 3 {
-                    contents.compact();
-                }
             }
             for (slot, (vertices, edges)) in (0..).zip(&lists) {
                 prop_assert_eq!(contents.vertices(slot), vertices.as_slice());

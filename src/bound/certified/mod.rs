@@ -21,6 +21,7 @@ pub mod contents;
 pub mod dual_tree;
 pub mod images;
 mod labels;
+mod records;
 mod removal;
 mod route;
 pub mod source;
@@ -118,10 +119,10 @@ impl Certified {
     ///
     /// What there would be too many of.
     pub fn check_room(&self, change: &Change, n_slots: usize) -> Result<(), TooMany> {
-        let n_portions = change.portions.len() + change.chains.len();
-        let n_mapped = change.assignments.len() + change.through.len() + 2 * n_slots;
-        check_places("portions of source edges", self.chains.n_entries(), n_portions)?;
-        check_places("vertices and edges mapped into triangles", self.contents.n_entries(), n_mapped)
+        let of_chains = Chains::n_words_of(change.chains.len(), change.portions.len());
+        let of_contents = Contents::n_words_of(n_slots, change.assignments.len() + change.through.len());
+        check_places("portions of source edges", self.chains.n_words(), of_chains)?;
+        check_places("vertices and edges mapped into triangles", self.contents.n_words(), of_contents)
     }
 
     /// Carries the map over to the filling. There must be [room](Self::check_room) for it.

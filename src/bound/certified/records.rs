@@ -1,0 +1,140 @@
+//! Records of words, side by side in one pool, each found by its owner.
+//!
+//! A list per owner would cost an allocation each, and lists linked through their members scatter over memory: following them
+//! was a third of the build. Here a record that changes is written anew behind the others, and [`Records::compact`] closes the
+//! gaps where they are, without a second pool. What changed together then lies together.
+
+/// No record, or a record without an owner.
+const NONE: u32 = u32::MAX;
+
+/// Words before each record: its owner and its length.
+pub(super) const HEADER: usize = 2;
+
+/// At most one record of words for each of so many owners.
+///
+/// Memory: 4 bytes per owner and word, 8 per record, and half as much again in gaps and room to grow at most.
+#[derive(Clone, Debug)]
+pub(super) struct Records {
+    /// Where the record of each owner starts in `words`.
+    first: Vec<u32>,
+    /// Record after record, those without an owner included.
+    words: Vec<u32>,
+    /// Words of the records with an owner, and of their headers.
+    n_used: usize,
+}
+
+impl Records {
+    /// No record, for any of `n_owners` owners.
+    pub(super) fn new(n_owners: usize) -> Self {
+        Self { first: vec![NONE; n_owners], words: vec![], n_used: 0 }
+    }
+
+    /// Whether `owner` has a record.
+    #[inline]
+    pub(super) fn has(&self, owner: u32) -> bool {
+        self.first[owner as usize] != NONE
+    }
+
+    /// The record of `owner`; empty where there is none.
+    #[inline]
+    pub(super) fn of(&self, owner: u32) -> &[u32] {
+        match self.words.get(self.first[owner as usize] as usize..) {
+            Some([_, n_words, rest @ ..]) => &rest[..*n_words as usize],
+            _ => &[],
+        }
+    }
+
+    /// Changes whenever the record of `owner` does, until the next [`Self::compact`].
+    #[inline]
+    pub(super) fn version(&self, owner: u32) -> u32 {
+        self.first[owner as usize]
+    }
+
+    /// Words of the pool, gaps and headers included: at most [`MAX_PLACES`](crate::mesh::MAX_PLACES), which whoever writes sees to.
+    #[inline]
+    pub(super) fn n_words(&self) -> usize {
+        self.words.len()
+    }
+
+    /// Drops the record of `owner`, if it has one. O(1).
+    pub(super) fn clear(&mut self, owner: u32) {
+        let first = std::mem::replace(&mut self.first[owner as usize], NONE);
+        if let Some([owner, n_words, ..]) = self.words.get_mut(first as usize..) {
+            *owner = NONE;
+            self.n_used -= HEADER + *n_words as usize;
+        }
+    }
+
+    /// Makes `words`, which are `n_words` and at least one, the record of `owner`. O(words).
+    #[expect(clippy::cast_possible_truncation, reason = "words are at most MAX_PLACES")]
+    pub(super) fn set(&mut self, owner: u32, n_words: usize, words: impl Iterator<Item = u32>) {
+        self.clear(owner);
+        self.make_room(HEADER + n_words);
+        self.first[owner as usize] = self.words.len() as u32;
+        self.words.extend([owner, n_words as u32]);
+        self.words.extend(words);
+        self.n_used += HEADER + n_words;
+    }
+
+    /// Closes the gaps once they make up a third of the pool; the records keep their order. O(words) when it works, O(1) otherwise.
+    #[expect(clippy::cast_possible_truncation, reason = "not more than before")]
+    pub(super) fn compact(&mut self) {
+        if self.words.len() < self.n_used + self.n_used / 2 + 1024 {
+            return;
+        }
+        let (mut from, mut to) = (0, 0);
+        while let Some(&[owner, n_words, ..]) = self.words.get(from..) {
+            let n_words = HEADER + n_words as usize;
+            if owner != NONE {
+                self.words.copy_within(from..from + n_words, to);
+                self.first[owner as usize] = to as u32;
+                to += n_words;
+            }
+            from += n_words;
+        }
+        self.words.truncate(to);
+    }
+
+    /// Room for a quarter more where there is too little: less than a `Vec` takes by itself.
+    fn make_room(&mut self, n_words: usize) {
+        if self.words.capacity() - self.words.len() < n_words {
+            self.words.reserve_exact(n_words + self.words.len() / 4);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeMap;
+
+    proptest! {
+        #[test]
+        fn records_agree_with_a_map(
+            settings in prop::collection::vec((0_u32..8, prop::collection::vec(any::<u32>(), 0..300)), 0..60)
+        ) {
+            let mut records = Records::new(8);
+            let mut map: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+            for (at, (owner, words)) in settings.into_iter().enumerate() {
+                let before = records.version(owner);
+                if words.is_empty() {
+                    records.clear(owner);
+                } else {
+                    records.set(owner, words.len(), words.iter().copied());
+                    prop_assert!(records.version(owner) != before);
+                }
+                map.insert(owner, words);
+                if at % 4 == 3 {
+                    records.compact();
+                    let n_used: usize = map.values().filter(|words| !words.is_empty()).map(|words| words.len() + HEADER).sum();
+                    prop_assert!(records.n_words() < n_used + n_used / 2 + 1024);
+                }
+            }
+            for (&owner, words) in &map {
+                prop_assert_eq!(records.of(owner), words.as_slice());
+                prop_assert_eq!(records.has(owner), !words.is_empty());
+            }
+        }
+    }
+}
