@@ -67,6 +67,7 @@ fn fit_around(
     filling: &mut Filling,
 ) -> Option<f64> {
     let Fitting { hole, class, limit_sq, .. } = fitting;
+    let enough_sq = REACH * REACH * limit_sq;
     filling.triangles.clear();
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     let mut score = |triangle: [u8; 3], cutoff: f64| {
@@ -74,7 +75,7 @@ fn fit_around(
         if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
             return f64::INFINITY;
         }
-        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff.min(REACH * REACH * limit_sq))
+        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff.min(enough_sq))
     };
     let (from, to, is_split) = match class {
         Class::InteriorEdge([from, to]) => (from, to, true),
@@ -87,7 +88,7 @@ fn fit_around(
         if is_edge {
             Some(0.0)
         } else {
-            triangulate_optimally(&polygons.part, &mut score, &mut filling.triangles)
+            triangulate_optimally(&polygons.part, enough_sq, &mut score, &mut filling.triangles)
         }
     };
     let first = fill_part(from, to, filling)?;

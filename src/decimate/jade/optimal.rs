@@ -26,10 +26,11 @@ impl Score {
 /// Triangulates the polygon `corners` with the least worst `score` and appends the triangles to `triangles`.
 ///
 /// `score` gets a triangle and a cutoff, above which any value will do. It gives infinity for a triangle that may not be
-/// used, and is never negative. Returns the worst score, or
+/// used, and is never negative. Returns the worst score, or a lower bound of it above `enough`, with any triangles; or
 /// `None` where every triangulation has a forbidden triangle. Panics never; polygons above [`MAX_CORNERS`] get `None`.
 pub fn triangulate_optimally(
     corners: &[u8],
+    enough: f64,
     mut score: impl FnMut([u8; 3], f64) -> f64,
     triangles: &mut Vec<[u8; 3]>,
 ) -> Option<f64> {
@@ -48,7 +49,12 @@ pub fn triangulate_optimally(
                 if sides.worst >= best[i][j].worst {
                     continue;
                 }
-                let own = score([corners[i], corners[k], corners[j]], best[i][j].worst);
+                let is_too_bad = sides.worst > enough;
+                let own = if is_too_bad {
+                    0.0
+                } else {
+                    score([corners[i], corners[k], corners[j]], best[i][j].worst)
+                };
                 let whole = sides.with(Score { worst: own, sum: own });
                 if whole < best[i][j] {
                     (best[i][j], apex[i][j]) = (whole, k);
@@ -108,6 +114,17 @@ mod tests {
 
     proptest! {
         #[test]
+        fn what_is_bad_enough_is_not_looked_into(n in 3_u8..8, enough in 0_u32..50, scores in prop::collection::vec(0_u32..50, 512)) {
+            let score = |[a, b, c]: [u8; 3]| {
+                f64::from(scores[usize::from(a) * 64 + usize::from(b) * 8 + usize::from(c)])
+            };
+            let corners: Vec<u8> = (0..n).collect();
+            let best = |enough: f64| triangulate_optimally(&corners, enough, |t, _| score(t), &mut vec![]).unwrap();
+            let (least, found) = (best(f64::INFINITY), best(enough.into()));
+            prop_assert!(found == least || (enough as f64) < found && found <= least);
+        }
+
+        #[test]
         fn no_triangulation_is_better(n in 3_u8..8, scores in prop::collection::vec(0_u32..50, 512)) {
             let score = |[a, b, c]: [u8; 3]| {
                 let value = scores[usize::from(a) * 64 + usize::from(b) * 8 + usize::from(c)];
@@ -117,7 +134,7 @@ mod tests {
             let worst = |triangles: &[[u8; 3]]| triangles.iter().map(|&t| score(t)).fold(0.0, f64::max);
             let least = all(0, n - 1).iter().map(|t| worst(t)).fold(f64::INFINITY, f64::min);
             let mut triangles = vec![];
-            match triangulate_optimally(&corners, |triangle, _| score(triangle), &mut triangles) {
+            match triangulate_optimally(&corners, f64::INFINITY, |triangle, _| score(triangle), &mut triangles) {
                 None => prop_assert!(least.is_infinite()),
                 Some(found) => {
                     prop_assert_eq!(found, least);
