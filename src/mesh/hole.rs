@@ -98,6 +98,20 @@ impl Hole {
         if is_disk { Ok(()) } else { Err(NoHole::Complex) }
     }
 
+    /// A copy for those who need no positions any more.
+    pub(crate) fn without_points(&self) -> Self {
+        let Self { removed, apex, closed, ref ring, ref slots, .. } = *self;
+        Self {
+            removed,
+            apex,
+            closed,
+            ring: ring.clone(),
+            points: vec![],
+            slots: slots.clone(),
+            spokes: vec![],
+        }
+    }
+
     /// Vertices of the ring.
     pub fn n_ring(&self) -> usize {
         self.ring.len()

@@ -8,7 +8,7 @@ use crate::mesh::{Filling, Hole, Seams, Surface, TooMany};
 /// All that a removal changes.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The star that goes.
+    /// The star that goes, without its points.
     pub hole: Hole,
     filling: Filling,
     error: f64,
@@ -27,7 +27,7 @@ pub fn plan(
     let replacement = Replacement { surface: situation.surface, hole, filling };
     let (errors, change) =
         situation.error.change(replacement, covered, limits, transfer).map_err(Verdict::Above)?;
-    Ok(Plan { hole: hole.clone(), filling: filling.clone(), error: errors.global, change })
+    Ok(Plan { hole: hole.without_points(), filling: filling.clone(), error: errors.global, change })
 }
 
 impl Plan {

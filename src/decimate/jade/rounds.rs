@@ -25,6 +25,9 @@ const BATCH: usize = 512;
 /// many times the limit before.
 const RETRY: f64 = 1.3;
 
+/// The part of a ceiling's worklist that is left to the next ceiling: rounds over a few candidates each would end it.
+const FEW: usize = 5;
+
 /// What was last found of each vertex.
 struct Candidates {
     /// The local limit that would have admitted it, or less: 0 when nothing is known, infinite when it was impossible or the
@@ -69,7 +72,8 @@ pub fn run(
         for ceiling in thresholds.ceilings() {
             let waiting = std::mem::take(&mut candidates.waiting);
             let mut worklist = candidates.sort_out(limits, ceiling, waiting);
-            while !worklist.is_empty() {
+            let few = if thresholds.is_last() { 0 } else { worklist.len() / FEW };
+            while worklist.len() > few {
                 if !go_on(decimation) {
                     return Err(Unfinished::Stopped);
                 }
@@ -80,11 +84,12 @@ pub fn run(
                     remove_all(decimation, &mut candidates, under, &picked).map_err(Unfinished::TooLarge)?;
                 let next = candidates.touch(limits, touched).into_iter().chain(picked).chain(others);
                 worklist = candidates.sort_out(limits, ceiling, next.collect());
-                if worklist.is_empty() && ceiling >= limits.global {
+                if worklist.len() <= few && ceiling >= limits.global {
                     let retry = if thresholds.is_last() { f64::INFINITY } else { RETRY };
-                    worklist = candidates.take_changed(retry * limits.local);
+                    worklist.extend(candidates.take_changed(retry * limits.local));
                 }
             }
+            candidates.waiting.extend(worklist);
         }
         if placement::is_due(decimation) {
             let moved = placement::improve(decimation, &candidates.open);
