@@ -275,13 +275,19 @@ pub(crate) fn shortened(error: &impl fmt::Display) -> String {
     ends.chain(message.chars().skip(n_chars - END_CHARS)).collect()
 }
 
-/// A name from a file as it can be shown in a message: quoted, escaped and at most 40 characters of it.
+/// A name from a file as it can be shown in a message: quoted, escaped, at most 40 characters of it, and fewer where their escapes are
+/// more than 80.
 pub(crate) fn quoted_name(name: &str) -> String {
     const SHOWN_CHARS: usize = 40;
-    match name.char_indices().nth(SHOWN_CHARS) {
-        Some((end, _)) => format!("{:?}", [&name[..end], "..."].concat()),
-        None => format!("{name:?}"),
+    const ESCAPED_CHARS: usize = 80;
+    let mut shown: String = name.chars().take(SHOWN_CHARS).collect();
+    while shown.escape_debug().count() > ESCAPED_CHARS {
+        shown.pop();
     }
+    if shown.len() < name.len() {
+        shown.push_str("...");
+    }
+    format!("{shown:?}")
 }
 
 /// A name from a file as it can be shown in a message.
@@ -324,6 +330,7 @@ mod tests {
         assert_eq!(shown_name(&"x".repeat(1000)).len(), 43);
         assert_eq!(quoted_name("a\n\u{1b}b"), "\"a\\n\\u{1b}b\"");
         assert_eq!(quoted_name(&"\u{e4}".repeat(1000)).chars().count(), 45);
+        assert_eq!(quoted_name(&"\u{15}".repeat(40)), format!("\"{}...\"", "\\u{15}".repeat(13)));
     }
 
     #[test]
