@@ -14,6 +14,7 @@
 //!
 //! Scripts beside it, for what only Python has:
 //!
+//! * `builders_time.py`: the time of a certified history beside meshoptimizer, fast-simplification and vtkDecimatePro.
 //! * `metro_check.py`: stated errors of levels against distances sampled by MeshLab.
 //! * `volumes_check.py`: fusion beside VTK: time, boundary and field error at equal counts.
 //! * `volumes_read_back.py`: levels of volumes as pyvista reads them, and the rate of their extraction.
