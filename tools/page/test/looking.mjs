@@ -76,6 +76,19 @@ export function difference(a, b) {
   return (n * channels) / a.bytes.length;
 }
 
+/** Pictures that differ in this part of all pixels or more are other pictures. */
+export const UNLIKE = 0.002;
+
+/** The canvas once it is visibly unlike `other`, or as it is after five seconds: births and normals arrive some frames later. */
+export async function pixelsUnlike(page, other) {
+  for (let waited = 0; waited < 5000; waited += 100) {
+    const picture = await pixels(page);
+    if (difference(picture, other) > UNLIKE) return picture;
+    await page.waitForTimeout(100);
+  }
+  return pixels(page);
+}
+
 /** The part of all pixels that are not as the one in the lower left corner. */
 export function drawn(picture) {
   const { bytes, width, channels } = picture;
