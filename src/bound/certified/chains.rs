@@ -18,7 +18,7 @@ pub struct Portion {
 /// Words that a portion takes.
 const WORDS: usize = 2;
 
-/// The chains of two portions and more: [`Records`] of edges.
+/// The chains of two portions and more: records of edges.
 #[derive(Clone, Debug)]
 pub struct Chains(Records);
 
@@ -67,7 +67,7 @@ impl Chains {
         }
     }
 
-    /// Gives back memory that former chains left behind. See [`Records::compact`].
+    /// Gives back memory that former chains left behind. O(words) when it works, O(1) otherwise.
     pub fn compact(&mut self) {
         self.0.compact();
     }

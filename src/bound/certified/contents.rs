@@ -6,7 +6,7 @@
 
 use super::records::{HEADER, Records};
 
-/// Source vertices in each slot, and source edges whose chain has a portion there: [`Records`] of slots, which are the number of
+/// Source vertices in each slot, and source edges whose chain has a portion there: records of slots, which are the number of
 /// vertices, the vertices and the edges.
 #[derive(Clone, Debug)]
 pub struct Contents(Records);
@@ -61,7 +61,7 @@ impl Contents {
         }
     }
 
-    /// Gives back memory that former contents left behind. See [`Records::compact`].
+    /// Gives back memory that former contents left behind. O(words) when it works, O(1) otherwise.
     pub fn compact(&mut self) {
         self.0.compact();
     }
