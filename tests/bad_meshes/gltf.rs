@@ -1,6 +1,6 @@
 //! glTF and GLB: containers, accessors, references, scenes.
 
-use super::Case;
+use super::{Case, Cases};
 
 /// A triangle's nine coordinates, as base 64.
 const DATA: &str = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -76,8 +76,6 @@ pub(crate) fn cases() -> Vec<Case> {
     let of_text = lists.into_iter().flatten().map(|(name, bytes)| (format!("{name}.gltf"), bytes));
     glb_cases().into_iter().chain(of_text).collect()
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 /// JSON, and what it says of itself.
 fn documents() -> Cases {

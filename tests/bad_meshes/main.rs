@@ -16,7 +16,7 @@ mod ply;
 mod shapes;
 mod stl;
 
-use corpus::{Case, Corpus, served, told, variant};
+use corpus::{Case, Cases, Corpus, served, told, variant};
 use nephrite::{BuildError, BuildOptions};
 use nephrite_formats::{MeshError, MeshFormat, read_mesh};
 use serde_json::json;

@@ -1,6 +1,6 @@
 //! Files that are in order and hold meshes that are not: topology and geometry of every unpleasant kind, as OBJ.
 
-use super::Case;
+use super::{Case, Cases};
 use std::fmt::Write;
 
 /// An OBJ of vertices, and of faces that count from 0.
@@ -77,8 +77,6 @@ pub(crate) fn cases() -> Vec<Case> {
     let others = [("unknown-text.xyz", &b"neither this nor that\n"[..]), ("empty", &[])];
     shapes.chain(others.map(|(name, bytes)| (name.to_owned(), bytes.to_vec()))).collect()
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 fn point(x: f64, y: f64) -> [f64; 3] {
     [x, y, 0.0]

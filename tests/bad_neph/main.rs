@@ -18,13 +18,10 @@ mod support;
 mod trees;
 mod valid;
 
-use corpus::{Corpus, variant, variants};
+use corpus::{Cases, Corpus, variant, variants};
 use nephrite::store::{OpenError, VerifyError};
 use std::collections::BTreeSet;
 use support::damage::{Outcome, open_and_use};
-
-/// Files by name, without the extension.
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 /// Small valid files with one thing wrong, all checksums made right where the fault is not in them.
 fn corpus() -> Corpus {

@@ -1,6 +1,6 @@
 //! Gmsh: versions, sections, counts against bytes, names of nodes, elements, values at nodes.
 
-use super::{Case, edited, named};
+use super::{Case, Cases, edited, named};
 
 const VERSION_2: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 0 0 1\n50 1 1 1\n$EndNodes\n\
     $Elements\n3\n1 2 2 0 1 10 20 30\n2 4 2 0 1 10 20 30 40\n3 4 2 0 1 20 30 40 50\n$EndElements\n\
@@ -14,8 +14,6 @@ pub(crate) fn cases() -> Vec<Case> {
     let lists = [sections(), counts(), nodes(), elements(), values(), version_4()];
     lists.into_iter().flat_map(|cases| named("msh", cases)).collect()
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 fn sections() -> Cases {
     vec![

@@ -1,7 +1,7 @@
 //! Binary Gmsh: byte order, sizes, counts against bytes, blocks, nodes, values, cuts.
 
 use super::binary::{Binary, spliced};
-use super::{Case, named};
+use super::{Case, Cases, named};
 
 const POINTS: [[f64; 3]; 5] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
 
@@ -100,8 +100,6 @@ fn version_4(is_big_endian: bool) -> Version4 {
         bytes,
     }
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 pub(crate) fn cases() -> Vec<Case> {
     let lists = [formats(), version_2_counts(), version_2_contents(), version_4_cases(), cuts()];

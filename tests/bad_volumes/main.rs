@@ -21,7 +21,7 @@ mod tetgen;
 mod vtk;
 mod vtu;
 
-use corpus::{Case, Corpus, served, told, variant, variants};
+use corpus::{Case, Cases, Corpus, served, told, variant, variants};
 use nephrite::{BuildError, VolumeOptions, build_volume};
 use nephrite_formats::{MeshError, VolumeFormat, read_volume};
 use serde_json::json;

@@ -1,6 +1,6 @@
 //! MEDIT: keywords, counts against bytes, vertices, elements.
 
-use super::{Case, edited, named};
+use super::{Case, Cases, edited, named};
 
 const TEXT: &str = "MeshVersionFormatted 2\nDimension\n3\n# a comment\nVertices\n5\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n1 1 1 1\n\
     Triangles\n1\n1 2 3 7\nTetrahedra\n2\n1 2 3 4 1\n2 3 4 5 2\nEnd\n";
@@ -11,8 +11,6 @@ pub(crate) fn cases() -> Vec<Case> {
     let lists = [keywords(), counts(), elements(), texts()];
     lists.into_iter().flat_map(|cases| named("mesh", cases)).collect()
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 fn keywords() -> Cases {
     vec![

@@ -1,7 +1,7 @@
 //! Binary MEDIT: byte order, versions, offsets, counts against bytes, vertices, elements, cuts.
 
 use super::binary::{Binary, spliced};
-use super::{Case, named};
+use super::{Case, Cases, named};
 
 /// A file of version 2, and where its parts are.
 struct File {
@@ -45,8 +45,6 @@ fn file(is_big_endian: bool) -> File {
         bytes,
     }
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 pub(crate) fn cases() -> Vec<Case> {
     let lists = [headers(), offsets(), counts(), contents(), cuts()];

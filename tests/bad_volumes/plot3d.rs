@@ -1,6 +1,6 @@
 //! PLOT3D: dimensions against bytes, framing, coordinates, blanks.
 
-use super::{Case, named};
+use super::{Case, Cases, named};
 
 /// A grid of points with its dimensions, as little-endian floats.
 fn grid(dimensions: [u32; 3], map: impl Fn([f32; 3]) -> [f32; 3]) -> Vec<u8> {
@@ -29,8 +29,6 @@ pub(crate) fn cases() -> Vec<Case> {
     cases.extend(named("p3d", contents()));
     cases
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 fn lengths() -> Cases {
     let whole = grid([3, 3, 2], |point| point);

@@ -1,6 +1,6 @@
 //! Legacy VTK: heads, counts against bytes, cells, arrays, binary.
 
-use super::{Case, edited, named};
+use super::{Case, Cases, edited, named};
 
 /// Two tetrahedra with an array of values at points.
 const TEXT: &str = "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 1 0 0 0 1 0\n0 0 1 1 1 1\n\
@@ -14,8 +14,6 @@ pub(crate) fn cases() -> Vec<Case> {
     let lists = [heads(), counts(), cells(), offsets(), arrays(), texts(), binaries()];
     lists.into_iter().flat_map(|cases| named("vtk", cases)).collect()
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 fn heads() -> Cases {
     vec![

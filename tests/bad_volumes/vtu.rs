@@ -1,6 +1,6 @@
 //! VTU: XML, counts, arrays in every encoding, appended data.
 
-use super::{Case, edited, named};
+use super::{Case, Cases, edited, named};
 
 const TEXT: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
 <UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n\
@@ -16,8 +16,6 @@ pub(crate) fn cases() -> Vec<Case> {
         [documents(), pieces(), counts(), cells(), arrays(), inline_binaries(), appended(), compressed()];
     lists.into_iter().flat_map(|cases| named("vtu", cases)).collect()
 }
-
-type Cases = Vec<(&'static str, Vec<u8>)>;
 
 fn documents() -> Cases {
     let deep = [&TEXT[..TEXT.find("<Piece").unwrap()], &"<a>".repeat(5000)].concat();

@@ -13,6 +13,9 @@ use std::path::{Path, PathBuf};
 /// The name of a file and its bytes.
 pub type Case = (String, Vec<u8>);
 
+/// Files by names that are written down in the tests.
+pub type Cases = Vec<(&'static str, Vec<u8>)>;
+
 /// Files by name, and where they are kept.
 pub struct Corpus {
     /// Folder of `files/` and `outcomes.txt`, from the root of the package.

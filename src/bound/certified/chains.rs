@@ -72,3 +72,37 @@ impl Chains {
         self.0.compact();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeMap;
+
+    proptest! {
+        #[test]
+        fn chains_agree_with_a_map(
+            settings in prop::collection::vec((0_u32..8, prop::collection::vec(0_u32..6, 0..200)), 0..60)
+        ) {
+            let mut chains = Chains::new(8);
+            let mut map: BTreeMap<u32, Vec<Portion>> = BTreeMap::new();
+            for (at, (edge, slots)) in settings.into_iter().enumerate() {
+                let portions: Vec<Portion> = slots.iter().map(|&slot| Portion { slot, end: slot as f32 }).collect();
+                let before = chains.version(edge);
+                chains.set(edge, &portions);
+                prop_assert!(portions.len() < 2 || chains.version(edge) != before);
+                map.insert(edge, if portions.len() < 2 { vec![] } else { portions });
+                if at % 4 == 3 {
+                    chains.compact();
+                    let taken = map.values().filter(|chain| !chain.is_empty());
+                    let n_used: usize = taken.map(|chain| Chains::n_words_of(1, chain.len())).sum();
+                    prop_assert!(chains.n_words() < n_used + n_used / 2 + 1024);
+                }
+            }
+            for (&edge, portions) in &map {
+                prop_assert_eq!(chains.of(edge), portions.as_slice());
+                prop_assert_eq!(chains.has(edge), !portions.is_empty());
+            }
+        }
+    }
+}

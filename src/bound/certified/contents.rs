@@ -88,11 +88,14 @@ mod tests {
         ) {
             let mut contents = Contents::new(5);
             let mut lists = vec![(vec![], vec![]); 5];
-            for (slot, vertices, edges) in fillings {
+            for (at, (slot, vertices, edges)) in fillings.into_iter().enumerate() {
                 contents.clear(slot);
                 prop_assert!(contents.vertices(slot).is_empty() && contents.edges(slot).is_empty());
                 contents.fill(slot, vertices.iter().copied(), edges.iter().copied());
                 lists[slot as usize] = (vertices, edges);
+                if at % 4 == 3 {
+                    contents.compact();
+                }
             }
             for (slot, (vertices, edges)) in (0..).zip(&lists) {
                 prop_assert_eq!(contents.vertices(slot), vertices.as_slice());

@@ -59,7 +59,7 @@ impl Destinations {
 }
 
 impl Route {
-    /// Makes this the new chain of `edge`; the largest squared disdestinations of a crossing that is new.
+    /// Makes this the new chain of `edge`; the largest squared displacement of a crossing that is new.
     pub(super) fn find(&mut self, destinations: &Destinations, removal: Removal<'_>, edge: u32) -> f64 {
         let ends = removal.certified.source.ends(edge);
         let segment = ends.map(|v| removal.replacement.surface.origin(v));
@@ -99,7 +99,7 @@ impl Route {
         largest_sq
     }
 
-    /// Appends the portions of one part; the largest squared disdestinations of its crossings.
+    /// Appends the portions of one part; the largest squared displacement of its crossings.
     fn cross(
         &mut self,
         destinations: &Destinations,

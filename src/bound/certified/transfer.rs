@@ -57,7 +57,8 @@ pub(super) struct NewChain {
 impl Transfer {
     /// Largest displacement inside the hole, or the first one found above `limit`.
     pub(super) fn displacement(&mut self, removal: Removal<'_>, limit: f64) -> f64 {
-        self.walk(removal, limit * limit, |_, _| ()).sqrt()
+        let limit_sq = limit * limit;
+        self.walk(removal, [limit_sq; 2], |_, _| ()).sqrt()
     }
 
     /// What the removal changes, and the largest displacement; or that alone where it is above `limit`, or the first one found above
@@ -66,7 +67,7 @@ impl Transfer {
         let mut draft = std::mem::take(&mut self.draft);
         draft.clear();
         let limit_sq = limit * limit;
-        let largest_sq = self.walk(removal, REACH * REACH * limit_sq, |edge, portions| {
+        let largest_sq = self.walk(removal, [limit_sq, REACH * REACH * limit_sq], |edge, portions| {
             removal.shorten(edge, portions);
             draft.add_chain(removal, edge, portions);
         });
@@ -81,26 +82,28 @@ impl Transfer {
         result
     }
 
-    /// Gives every source edge that the removal moves its new chain and shows it to `take`. Largest squared displacement
-    /// inside the hole, or the first one found above the limit.
+    /// Gives every source edge that the removal moves its new chain and, as long as nothing is above the limit, shows it to `take`.
+    /// Largest squared displacement inside the hole, or the first one found out of reach.
     #[inline]
     fn walk(
         &mut self,
         removal: Removal<'_>,
-        limit_sq: f64,
+        [limit_sq, reach_sq]: [f64; 2],
         mut take: impl FnMut(u32, &mut Vec<Portion>),
     ) -> f64 {
-        let mut largest_sq = self.place_vertices(removal, limit_sq);
-        if largest_sq > limit_sq {
+        let mut largest_sq = self.place_vertices(removal, reach_sq);
+        if largest_sq > reach_sq {
             return largest_sq;
         }
         let Self { destinations, route, .. } = self;
         let _ = removal.try_each_moved_edge(&destinations.labels, |edge| {
             largest_sq = largest_sq.max(route.find(destinations, removal, edge));
-            if largest_sq > limit_sq {
+            if largest_sq > reach_sq {
                 return ControlFlow::Break(());
             }
-            take(edge, &mut route.portions);
+            if largest_sq <= limit_sq {
+                take(edge, &mut route.portions);
+            }
             ControlFlow::Continue(())
         });
         largest_sq

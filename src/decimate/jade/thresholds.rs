@@ -42,7 +42,7 @@ impl Thresholds {
     /// Ceilings that rise in equal factors to the global limit of this iteration, from that of the one before.
     ///
     /// What is below the limit and above the ceiling waits, without being judged again: candidates then go nearly in the order
-    /// of their errors, as if the limits rose sixteen times as finely.
+    /// of their errors, as if the limits rose that much more finely.
     pub fn ceilings(&self) -> impl Iterator<Item = f64> + use<> {
         let (limit, c1) = (self.limits().global, self.c1);
         (1..=CEILINGS).map(move |part| limit * c1.powf(f64::from(part - CEILINGS) / f64::from(CEILINGS)))

@@ -101,12 +101,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Blocks of numbers, then of coordinates.
-    fn nodes_4(&mut self) -> Result<(), MeshError> {
+    /// The head of a section of version 4: how many blocks follow, and three totals that are not needed.
+    fn begin_blocks(&mut self) -> Result<usize, MeshError> {
         self.source.begin_numbers();
         let n_blocks = self.source.count(3 * INT_BYTES, "blocks")?;
         (0..3).try_for_each(|_| self.source.size().map(drop))?;
-        for _ in 0..n_blocks {
+        Ok(n_blocks)
+    }
+
+    /// Blocks of numbers, then of coordinates.
+    fn nodes_4(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.begin_blocks()? {
             let n_dimensions = self.source.int()?;
             self.source.int()?;
             let n_parameters = if self.source.int()? != 0 { n_dimensions.clamp(0, 3) } else { 0 };
@@ -158,10 +163,7 @@ impl Reader<'_> {
     }
 
     fn elements_4(&mut self) -> Result<(), MeshError> {
-        self.source.begin_numbers();
-        let n_blocks = self.source.count(3 * INT_BYTES, "blocks")?;
-        (0..3).try_for_each(|_| self.source.size().map(drop))?;
-        for _ in 0..n_blocks {
+        for _ in 0..self.begin_blocks()? {
             (0..2).try_for_each(|_| self.source.int().map(drop))?;
             let kind = self.element_type()?;
             for _ in 0..self.source.count(2 * INT_BYTES, "elements")? {
