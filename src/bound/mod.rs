@@ -46,7 +46,7 @@ pub enum Change {
 
 impl GlobalError {
     /// What the replacement changes, found without changing it, and its errors; where they are above the limits only the errors,
-    /// or lower bounds of them above [`REACH`] times the limits. `covered` holds what is mapped into the hole where the error is
+    /// or lower bounds of them well above the limits. `covered` holds what is mapped into the hole where the error is
     /// certified.
     pub fn change(
         &self,

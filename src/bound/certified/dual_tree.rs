@@ -87,21 +87,25 @@ impl DualTree {
 
     /// Appends the crossings on the way from triangle `from` to triangle `to` to `path`.
     pub fn path(&self, from: u8, to: u8, path: &mut Vec<Crossing>) {
+        let [depth, parent] = [&self.depth, &self.parent];
         let (mut up, mut down) = (from, to);
-        let mut descent = [Crossing { edge: [0; 2], into: 0 }; MAX_TRIANGLES];
-        let mut n_descent = 0;
+        // To where the ways from both to the root meet.
         while up != down {
-            if self.depth[usize::from(up)] >= self.depth[usize::from(down)] {
-                let into = self.parent[usize::from(up)];
+            if depth[usize::from(up)] >= depth[usize::from(down)] {
+                let into = parent[usize::from(up)];
                 path.push(Crossing { edge: self.link[usize::from(up)], into });
                 up = into;
             } else {
-                descent[n_descent] = Crossing { edge: self.link[usize::from(down)], into: down };
-                n_descent += 1;
-                down = self.parent[usize::from(down)];
+                down = parent[usize::from(down)];
             }
         }
-        path.extend(descent[..n_descent].iter().rev());
+        let n_up = path.len();
+        down = to;
+        while down != up {
+            path.push(Crossing { edge: self.link[usize::from(down)], into: down });
+            down = parent[usize::from(down)];
+        }
+        path[n_up..].reverse();
     }
 }
 

@@ -21,10 +21,12 @@ pub mod contents;
 pub mod dual_tree;
 pub mod images;
 mod labels;
+mod location;
 mod records;
 mod removal;
 mod route;
 pub mod source;
+mod star;
 mod transfer;
 
 use super::Replacement;
@@ -36,6 +38,10 @@ use contents::Contents;
 use removal::Removal;
 use source::SourceEdges;
 pub use transfer::{Change, Transfer};
+
+/// How many times the limit a displacement is followed up. The filling was chosen to be within the limit, so that little is
+/// learned from going on for long.
+pub const REACH: f64 = 1.3;
 
 /// No slot, or no corner.
 const NONE: u32 = u32::MAX;
@@ -91,7 +97,7 @@ impl Certified {
     }
 
     /// What the replacement changes in the map, and the bound; or the bound alone where it is above `limit`, or some value above
-    /// [`super::REACH`] times the limit if it is above that. O(vertices and edges mapped into the star).
+    /// [`REACH`] times the limit if it is above that. O(vertices and edges mapped into the star).
     pub fn change(
         &self,
         replacement: Replacement<'_>,
@@ -157,7 +163,7 @@ impl Certified {
     }
 
     /// Source vertices whose image lies in the star of `hole`, in lists: the removed one first.
-    pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = &'a [u32]> {
+    pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = &'a [u32]> + Clone {
         let mapped = hole.slots.iter().map(|&slot| self.contents.vertices(slot));
         std::iter::once(std::slice::from_ref(&hole.removed)).chain(mapped)
     }

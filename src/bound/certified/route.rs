@@ -1,9 +1,11 @@
 //! The way of a source edge through a hole that has been filled.
 
+use super::Certified;
 use super::chains::Portion;
 use super::dual_tree::{Crossing, DualTree};
 use super::labels::Labels;
 use super::removal::Removal;
+use super::star::{OUTSIDE, Star};
 use crate::geometry::distance::{Segment, point_segment_distance_sq};
 use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
 
@@ -14,6 +16,8 @@ pub(super) struct Destinations {
     pub(super) tree: DualTree,
     /// The filling's triangle for each vertex mapped into the hole.
     pub(super) labels: Labels,
+    /// The star that the filling replaces.
+    pub(super) star: Star,
 }
 
 /// The new chain of one edge at a time.
@@ -21,7 +25,19 @@ pub(super) struct Destinations {
 pub(super) struct Route {
     /// Its portions.
     pub(super) portions: Vec<Portion>,
+    /// For each of them the filling's triangle, or [`OUTSIDE`].
+    pub(super) labels: Vec<u8>,
+    /// For each portion of the old chain its triangle in the star, or [`OUTSIDE`].
+    old_labels: Vec<u8>,
     path: Vec<Crossing>,
+}
+
+/// A source edge with a chain, met in a triangle of the star.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub(super) edge: u32,
+    /// Index of the triangle in the star.
+    pub(super) at: u8,
 }
 
 /// One end of a part of a source edge that lies in the hole.
@@ -53,50 +69,117 @@ impl Destinations {
     }
 
     /// The end of a part that comes over the ring edge of the star's triangle `i`.
-    fn end_over(&self, i: usize) -> End {
-        End::In(self.tree.at_ring_edge(i))
+    fn end_over(&self, i: u8) -> End {
+        End::In(self.tree.at_ring_edge(i.into()))
     }
 }
 
 impl Route {
-    /// Makes this the new chain of `edge`; the largest squared displacement of a crossing that is new.
-    pub(super) fn find(&mut self, destinations: &Destinations, removal: Removal<'_>, edge: u32) -> f64 {
-        let ends = removal.certified.source.ends(edge);
+    /// Makes this the new chain of the edge met; the largest squared displacement of a crossing that is new. Nothing where the edge
+    /// does not first come into the star here: it is met elsewhere, or its chain has left the star.
+    pub(super) fn follow(
+        &mut self,
+        destinations: &Destinations,
+        removal: Removal<'_>,
+        met: Met,
+    ) -> Option<f64> {
+        let Met { edge, at: here } = met;
+        let Certified { source, chains, .. } = removal.certified;
+        let old = chains.of(edge);
+        let mut labels = old.iter().map(|portion| destinations.star.label(portion.slot));
+        let n_before = labels.by_ref().position(|label| label != OUTSIDE)?;
+        if old[n_before].slot != removal.replacement.hole.slots[usize::from(here)] {
+            return None;
+        }
+        self.old_labels.clear();
+        self.old_labels.resize(n_before, OUTSIDE);
+        self.old_labels.push(here);
+        self.old_labels.extend(labels);
+        let ends = source.ends(edge);
         let segment = ends.map(|v| removal.replacement.surface.origin(v));
-        // An edge in one portion is known to the hole by its ends alone.
-        let whole = [Portion { slot: removal.replacement.hole.slots[0], end: 1.0 }];
-        let old = match removal.certified.chains.of(edge) {
-            [] => whole.as_slice(),
-            portions => portions,
-        };
         self.portions.clear();
+        self.labels.clear();
         let mut largest_sq = 0.0_f64;
         let mut start = 0.0;
         let mut at = 0;
         while at < old.len() {
-            let Some(first) = removal.star_index(old[at].slot) else {
-                self.portions.push(old[at]);
+            let first = self.old_labels[at];
+            if first == OUTSIDE {
+                self.push(old[at], OUTSIDE);
                 start = old[at].end;
                 at += 1;
                 continue;
-            };
+            }
             let entry =
                 if at == 0 { destinations.end_at(removal, ends[0]) } else { destinations.end_over(first) };
-            let mut last = first;
-            while let Some(next) = old.get(at + 1).and_then(|portion| removal.star_index(portion.slot)) {
-                last = next;
+            while self.old_labels.get(at + 1).is_some_and(|&label| label != OUTSIDE) {
                 at += 1;
             }
             let is_last = at + 1 == old.len();
-            let exit =
-                if is_last { destinations.end_at(removal, ends[1]) } else { destinations.end_over(last) };
+            let exit = if is_last {
+                destinations.end_at(removal, ends[1])
+            } else {
+                destinations.end_over(self.old_labels[at])
+            };
             let end = old[at].end;
             largest_sq =
                 largest_sq.max(self.cross(destinations, removal, segment, Part { entry, exit, start, end }));
             start = end;
             at += 1;
         }
-        largest_sq
+        Some(largest_sq)
+    }
+
+    /// Makes this the chain of `edge`, which had none and lies in the hole; the largest squared displacement of a crossing.
+    pub(super) fn split(&mut self, destinations: &Destinations, removal: Removal<'_>, edge: u32) -> f64 {
+        let ends = removal.certified.source.ends(edge);
+        let segment = ends.map(|v| removal.replacement.surface.origin(v));
+        self.portions.clear();
+        self.labels.clear();
+        let [entry, exit] = ends.map(|v| destinations.end_at(removal, v));
+        self.cross(destinations, removal, segment, Part { entry, exit, start: 0.0, end: 1.0 })
+    }
+
+    /// Takes out what the chain does not need: going over an edge and straight back, and turning about a vertex that is
+    /// its own image.
+    pub(super) fn shorten(&mut self, removal: Removal<'_>, edge: u32) {
+        let Self { portions, labels, .. } = self;
+        let [low, high] = removal.certified.source.ends(edge);
+        let touches = |portion: Portion, label, v| removal.touches(portion.slot, label, v);
+        let mut kept = 0;
+        for at in 0..portions.len() {
+            let (portion, label) = (portions[at], labels[at]);
+            if kept >= 2 && portions[kept - 2].slot == portion.slot {
+                kept -= 1;
+                portions[kept - 1].end = portion.end;
+            } else if kept >= 1 && portions[kept - 1].slot == portion.slot {
+                portions[kept - 1].end = portion.end;
+            } else if kept == 1
+                && removal.stays(low)
+                && touches(portions[0], labels[0], low)
+                && touches(portion, label, low)
+            {
+                (portions[0], labels[0]) = (portion, label);
+            } else {
+                (portions[kept], labels[kept]) = (portion, label);
+                kept += 1;
+            }
+        }
+        while kept >= 2
+            && removal.stays(high)
+            && touches(portions[kept - 1], labels[kept - 1], high)
+            && touches(portions[kept - 2], labels[kept - 2], high)
+        {
+            kept -= 1;
+            portions[kept - 1].end = 1.0;
+        }
+        portions.truncate(kept);
+        labels.truncate(kept);
+    }
+
+    fn push(&mut self, portion: Portion, label: u8) {
+        self.portions.push(portion);
+        self.labels.push(label);
     }
 
     /// Appends the portions of one part; the largest squared displacement of its crossings.
@@ -115,11 +198,12 @@ impl Route {
             let target = [hole.points[usize::from(i)], hole.points[usize::from(j)]];
             let (s, distance_sq) = cross_nearest(segment, start, part.end, target);
             self.portions.push(Portion { slot: hole.slots[usize::from(into)], end: s });
+            self.labels.push(into);
             largest_sq = largest_sq.max(distance_sq);
             start = s;
             into = next;
         }
-        self.portions.push(Portion { slot: hole.slots[usize::from(into)], end: part.end });
+        self.push(Portion { slot: hole.slots[usize::from(into)], end: part.end }, into);
         largest_sq
     }
 

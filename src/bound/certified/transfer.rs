@@ -1,11 +1,12 @@
 //! Moving the map from the star of a vertex to the filling of its hole.
 
-use super::NOT_ON_RIM;
 use super::chains::Portion;
+use super::location::Location;
 use super::removal::Removal;
 use super::route::{Destinations, Route};
-use crate::bound::covered::Over;
-use crate::bound::{REACH, Replacement};
+use super::star::OUTSIDE;
+use super::{NOT_ON_RIM, REACH};
+use crate::bound::Replacement;
 use crate::geometry::distance::point_segment_distance_sq;
 use crate::mesh::MAX_VALENCE;
 use std::ops::ControlFlow;
@@ -15,8 +16,7 @@ use std::ops::ControlFlow;
 pub struct Transfer {
     destinations: Destinations,
     route: Route,
-    /// Which vertices lie over each triangle of the filling, where that is known.
-    overs: Vec<Over>,
+    location: Location,
     /// A change while it is not known whether it is needed: most removals end above the limit.
     draft: Change,
 }
@@ -67,9 +67,9 @@ impl Transfer {
         let mut draft = std::mem::take(&mut self.draft);
         draft.clear();
         let limit_sq = limit * limit;
-        let largest_sq = self.walk(removal, [limit_sq, REACH * REACH * limit_sq], |edge, portions| {
-            removal.shorten(edge, portions);
-            draft.add_chain(removal, edge, portions);
+        let largest_sq = self.walk(removal, [limit_sq, REACH * REACH * limit_sq], |edge, route| {
+            route.shorten(removal, edge);
+            draft.add_chain(removal, edge, route);
         });
         let found = largest_sq.sqrt();
         let result = if largest_sq > limit_sq {
@@ -89,46 +89,56 @@ impl Transfer {
         &mut self,
         removal: Removal<'_>,
         [limit_sq, reach_sq]: [f64; 2],
-        mut take: impl FnMut(u32, &mut Vec<Portion>),
+        mut take: impl FnMut(u32, &mut Route),
     ) -> f64 {
-        let mut largest_sq = self.place_vertices(removal, reach_sq);
+        let mut largest_sq = self.place_vertices(removal, [limit_sq, reach_sq]);
         if largest_sq > reach_sq {
             return largest_sq;
         }
         let Self { destinations, route, .. } = self;
-        let _ = removal.try_each_moved_edge(&destinations.labels, |edge| {
-            largest_sq = largest_sq.max(route.find(destinations, removal, edge));
+        let mut go_on = |edge, found_sq: f64, route: &mut Route| {
+            largest_sq = largest_sq.max(found_sq);
             if largest_sq > reach_sq {
                 return ControlFlow::Break(());
             }
             if largest_sq <= limit_sq {
-                take(edge, &mut route.portions);
+                take(edge, route);
             }
             ControlFlow::Continue(())
-        });
+        };
+        let _ = removal
+            .try_each_split_edge(&destinations.labels, |edge| {
+                let found_sq = route.split(destinations, removal, edge);
+                go_on(edge, found_sq, route)
+            })
+            .is_continue()
+            && removal
+                .try_each_chained_edge(|met| match route.follow(destinations, removal, met) {
+                    Some(found_sq) => go_on(met.edge, found_sq, route),
+                    None => ControlFlow::Continue(()),
+                })
+                .is_continue();
         largest_sq
     }
 
     /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared displacement, or the
-    /// first above the limit.
-    fn place_vertices(&mut self, removal: Removal<'_>, limit_sq: f64) -> f64 {
+    /// first above `reach_sq`.
+    fn place_vertices(&mut self, removal: Removal<'_>, [limit_sq, reach_sq]: [f64; 2]) -> f64 {
         let Removal { replacement: Replacement { surface, hole, filling }, covered, .. } = removal;
-        let Destinations { tree, labels } = &mut self.destinations;
+        let Destinations { tree, labels, star } = &mut self.destinations;
         tree.build(hole, filling);
+        star.set(&hole.slots);
         labels.start(surface.n_vertices());
-        self.overs.clear();
-        if covered.has_sides() {
-            self.overs.extend(filling.triangles.iter().map(|&triangle| Over::new(triangle)));
-        }
+        self.location.build(hole, filling);
         let mut largest_sq = 0.0_f64;
-        for (at, (&v, &p)) in covered.vertices.iter().zip(&covered.points).enumerate() {
+        for (&v, &p) in covered.vertices.iter().zip(&covered.points) {
             let (label, distance_sq) = match removal.rim_edge(v) {
                 Some(i) => (tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
-                None => removal.near(at, p, &self.overs),
+                None => removal.near(p, self.location.find(p), limit_sq.max(largest_sq)),
             };
             labels.set(v, label);
             largest_sq = largest_sq.max(distance_sq);
-            if largest_sq > limit_sq {
+            if largest_sq > reach_sq {
                 break;
             }
         }
@@ -164,19 +174,18 @@ impl Change {
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "a filling has fewer than MAX_VALENCE triangles")]
-    fn add_chain(&mut self, removal: Removal<'_>, edge: u32, portions: &[Portion]) {
-        self.portions.extend_from_slice(portions);
+    fn add_chain(&mut self, removal: Removal<'_>, edge: u32, route: &Route) {
+        self.portions.extend_from_slice(&route.portions);
         let replaces = removal.certified.chains.version(edge);
         self.chains.push(NewChain { edge, replaces, end: self.portions.len() });
-        if portions.len() < 2 {
+        if route.portions.len() < 2 {
             return;
         }
         let mut seen = 0_u64;
-        for label in portions.iter().filter_map(|portion| removal.star_index(portion.slot)) {
+        for &label in route.labels.iter().filter(|&&label| label != OUTSIDE) {
             if seen & (1 << label) == 0 {
                 seen |= 1 << label;
-                self.through.push((label as u8, edge));
+                self.through.push((label, edge));
             }
         }
     }

@@ -1,5 +1,6 @@
 //! One vertex as a candidate for removal: its hole and the filling.
 
+use super::asked::Asked;
 use super::classify::{Class, classify};
 use super::fit::{Fitting, fit};
 use super::flip::flip_edges;
@@ -43,6 +44,7 @@ pub struct Scratch {
     /// Its filling.
     pub filling: Filling,
     polygons: Polygons,
+    asked: Asked,
     /// Input vertices over the hole.
     pub covered: Covered,
     /// Buffers for carrying the certified map along.
@@ -96,15 +98,20 @@ fn fill_best(
     limits: Limits,
     scratch: &mut Scratch,
 ) -> Result<(), Verdict> {
-    let Scratch { hole, filling, polygons, covered, .. } = scratch;
+    let Scratch { hole, filling, polygons, asked, covered, .. } = scratch;
     let surface = situation.surface;
-    covered.gather(surface, hole, certified.vertices_in(hole));
     let limit_sq = limits.global * limits.global;
-    match fit(Fitting { surface, hole, class, limit_sq }, covered, polygons, filling) {
+    let fitted_sq = asked
+        .gather(surface, hole, certified.vertices_in(hole))
+        .then(|| fit(Fitting { surface, hole, class, limit_sq }, asked, polygons, filling))
+        .flatten();
+    match fitted_sq {
         Some(fitted_sq) if fitted_sq > limit_sq => {
-            Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
+            return Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }));
         }
-        None if !triangulate(surface, hole, class, polygons, filling) => Err(Verdict::Impossible),
-        _ => Ok(()),
+        None if !triangulate(surface, hole, class, polygons, filling) => return Err(Verdict::Impossible),
+        _ => {}
     }
+    covered.gather(surface, certified.vertices_in(hole));
+    Ok(())
 }

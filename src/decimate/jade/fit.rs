@@ -5,12 +5,12 @@
 //! the best filling outright costs little more, since each of the few possible triangles is scored once, and it needs
 //! a quarter fewer triangles at the same error.
 
+use super::asked::{Asked, MAX_CORNERS};
 use super::classify::Class;
 use super::optimal::triangulate_optimally;
 use super::triangulate::{Polygons, collect_part, ring_index};
 use super::validity::{WORST_ASPECT, worst_star_aspect};
 use crate::bound::REACH;
-use crate::bound::covered::{Covered, MAX_CORNERS, Over};
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
 use crate::mesh::{Filling, Hole, Surface};
@@ -33,19 +33,19 @@ pub struct Fitting<'a> {
 /// [`REACH`] times the limit; `None` where there is no such filling or the hole is too large.
 pub fn fit(
     fitting: Fitting<'_>,
-    covered: &mut Covered,
+    asked: &mut Asked,
     polygons: &mut Polygons,
     filling: &mut Filling,
 ) -> Option<f64> {
     let Fitting { surface, hole, limit_sq, .. } = fitting;
     let is_tetrahedron = hole.closed && hole.n_ring() == 3 && surface.has_triangle(triple(hole));
-    if !covered.has_sides() || is_tetrahedron {
+    if is_tetrahedron {
         return None;
     }
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
     let mut is_taken = [[false; MAX_CORNERS]; MAX_CORNERS];
     loop {
-        let worst_sq = fit_around(fitting, &is_taken, covered, polygons, filling)?;
+        let worst_sq = fit_around(fitting, &is_taken, asked, polygons, filling)?;
         if worst_sq > limit_sq {
             return Some(worst_sq);
         }
@@ -62,7 +62,7 @@ pub fn fit(
 fn fit_around(
     fitting: Fitting<'_>,
     is_taken: &[[bool; MAX_CORNERS]; MAX_CORNERS],
-    covered: &mut Covered,
+    asked: &mut Asked,
     polygons: &mut Polygons,
     filling: &mut Filling,
 ) -> Option<f64> {
@@ -75,7 +75,7 @@ fn fit_around(
         if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
             return f64::INFINITY;
         }
-        largest_distance_sq(hole, covered, triangle, worst_aspect, cutoff.min(enough_sq))
+        largest_distance_sq(hole, asked, triangle, worst_aspect, cutoff.min(enough_sq))
     };
     let (from, to, is_split) = match class {
         Class::InteriorEdge([from, to]) => (from, to, true),
@@ -101,54 +101,62 @@ fn fit_around(
 /// triangle faces away or is too thin.
 fn largest_distance_sq(
     hole: &Hole,
-    covered: &mut Covered,
+    asked: &mut Asked,
     triangle: [u8; 3],
     worst_aspect: f64,
     cutoff: f64,
 ) -> f64 {
-    if covered.flat_area(triangle) <= 0.0 {
+    if asked.flat_area(triangle) <= 0.0 {
         return f64::INFINITY;
     }
     let floor = Floor::new(triangle.map(|i| hole.points[usize::from(i)]));
     if floor.is_thinner(worst_aspect) {
         return f64::INFINITY;
     }
-    covered.largest_over(Over::new(triangle), cutoff, |p| floor.distance_sq(p))
+    match asked.over(triangle) {
+        0 => 0.0,
+        over => asked.largest(over, cutoff, floor.distance_sq()),
+    }
 }
 
 /// A triangle under points most of which have the foot of their perpendicular inside: their distance is a height.
 struct Floor {
     corners: Triangle,
+    edges: [Vector; 2],
     normal: Vector,
-    /// Perpendicular to the normal and to one edge at the first corner.
-    across: [Vector; 2],
     normal_sq: f64,
 }
 
 impl Floor {
     fn new(corners: Triangle) -> Self {
-        let (ab, ac) = (sub(corners[1], corners[0]), sub(corners[2], corners[0]));
-        let normal = cross(ab, ac);
-        Self { corners, normal, across: [cross(ac, normal), cross(normal, ab)], normal_sq: length_sq(normal) }
+        let edges = [sub(corners[1], corners[0]), sub(corners[2], corners[0])];
+        let normal = cross(edges[0], edges[1]);
+        Self { corners, edges, normal, normal_sq: length_sq(normal) }
     }
 
     /// Whether the triangle's [`aspect`](super::validity::aspect) is below `least`.
     fn is_thinner(&self, least: f64) -> bool {
-        let [a, b, c] = self.corners;
-        let edges_sq = distance_sq(a, b) + distance_sq(b, c) + distance_sq(c, a);
+        let [ab, ac] = self.edges;
+        let edges_sq = length_sq(ab) + distance_sq(self.corners[1], self.corners[2]) + length_sq(ac);
         12.0 * self.normal_sq < (least * edges_sq).powi(2) || edges_sq <= 0.0
     }
 
     /// Squared distance of a point: good enough to choose by, not to prove with.
     #[inline(always)]
-    fn distance_sq(&self, p: Vector) -> f64 {
-        let ap = sub(p, self.corners[0]);
-        let [v, w] = self.across.map(|axis| dot(ap, axis));
-        if v >= 0.0 && w >= 0.0 && v + w <= self.normal_sq {
-            let height = dot(ap, self.normal);
-            height * height / self.normal_sq
-        } else {
-            point_triangle_distance_sq(p, &self.corners)
+    fn distance_sq(&self) -> impl Fn(Vector) -> f64 {
+        let Self { corners, edges: [ab, ac], normal, normal_sq } = *self;
+        let per_normal_sq = 1.0 / normal_sq;
+        // Perpendicular to the normal and to one edge at the first corner.
+        let across = [cross(ac, normal), cross(normal, ab)];
+        move |p| {
+            let ap = sub(p, corners[0]);
+            let [v, w] = across.map(|axis| dot(ap, axis));
+            if v >= 0.0 && w >= 0.0 && v + w <= normal_sq {
+                let height = dot(ap, normal);
+                height * height * per_normal_sq
+            } else {
+                point_triangle_distance_sq(p, &corners)
+            }
         }
     }
 }

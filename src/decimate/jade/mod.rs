@@ -6,6 +6,7 @@
 //! parallel, then an independent set of them, cheapest first, is removed. No heap is needed, and the result does not
 //! depend on the number of threads.
 
+pub mod asked;
 pub mod best_place;
 pub mod candidate;
 pub mod classify;

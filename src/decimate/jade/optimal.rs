@@ -5,7 +5,7 @@
 //! 1980; there for the sum of edge lengths). Here a triangulation is as bad as its worst triangle, ties go to the
 //! smaller sum. A polygon of `n` corners has `n (n-1) (n-2) / 6` triangles, each scored once.
 
-use crate::bound::covered::MAX_CORNERS;
+use super::asked::MAX_CORNERS;
 
 /// Worst score and sum of scores of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
