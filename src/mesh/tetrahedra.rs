@@ -25,6 +25,9 @@ pub struct Tetrahedra {
     stars: Vec<Star>,
     pool: Vec<u32>,
     n_alive: usize,
+    /// Entries of stars handed out: the work of a test.
+    #[cfg(test)]
+    n_read: std::sync::Arc<std::sync::atomic::AtomicU64>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,7 +62,16 @@ impl Tetrahedra {
         }
         let boundary = boundary_faces(&corners, positions.len());
         let n_alive = corners.len();
-        Self { positions, corners, boundary, stars, pool, n_alive }
+        Self {
+            positions,
+            corners,
+            boundary,
+            stars,
+            pool,
+            n_alive,
+            #[cfg(test)]
+            n_read: Default::default(),
+        }
     }
 
     /// Tetrahedra alive.
@@ -107,7 +119,22 @@ impl Tetrahedra {
     #[inline]
     pub fn slots_at(&self, v: u32) -> &[u32] {
         let Star { start, len, .. } = self.stars[v as usize];
+        #[cfg(test)]
+        self.n_read.fetch_add(len.into(), std::sync::atomic::Ordering::Relaxed);
         &self.pool[start as usize..][..len as usize]
+    }
+
+    /// Tetrahedra in the star of `v`, which is alive. O(1).
+    #[inline(always)]
+    pub fn n_at(&self, v: u32) -> u32 {
+        let Star { len, n_dead, .. } = self.stars[v as usize];
+        len - n_dead
+    }
+
+    /// Entries of stars handed out so far.
+    #[cfg(test)]
+    pub fn n_read(&self) -> u64 {
+        self.n_read.load(std::sync::atomic::Ordering::Relaxed)
     }
 
     /// Faces of a tetrahedron on the boundary: bit `i` for the one opposite corner `i`.

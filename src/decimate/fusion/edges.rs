@@ -127,10 +127,11 @@ fn by_cost(a: &&(f64, u32), b: &&(f64, u32)) -> std::cmp::Ordering {
 }
 
 impl Edges {
-    /// Finds the edges from `v` to older vertices; gives the least cost.
+    /// Finds the edges from `v` to older vertices, of those that may be fused; gives the least cost.
     fn find(&mut self, state: &State, v: u32, candidate: &mut Candidate) -> Option<f64> {
         self.neighbours.clear();
-        for &slot in state.mesh.slots_at(v) {
+        let slots = if state.is_crowded(v) { &[] } else { state.mesh.slots_at(v) };
+        for &slot in slots {
             // The tetrahedra of a fused vertex live on without it.
             if let Some(corners) = state.mesh.get(slot).filter(|corners| corners.contains(&v)) {
                 self.neighbours.extend(corners.into_iter().filter(|&w| w < v));
@@ -138,6 +139,7 @@ impl Edges {
         }
         self.neighbours.sort_unstable();
         self.neighbours.dedup();
+        self.neighbours.retain(|&w| !state.is_crowded(w));
         self.costs.clear();
         self.costs.extend(self.neighbours.iter().map(|&w| (state.cost(&Prey::edge([v, w])), w)));
         candidate.found = state.now();

@@ -145,3 +145,40 @@ pub(super) fn observe(state: &State, go_on: GoOn<'_>) -> Result<(), Stopped> {
     let is_time = state.n_fusions.is_multiple_of(OBSERVED);
     if is_time && !go_on(state.mesh.n_alive(), state.recorder.error()) { Err(Stopped) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::ball_volume;
+    use crate::volume::boundary;
+
+    /// The boundary of a ball and one vertex in its middle, to which every tetrahedron goes.
+    fn cone(cells: u32) -> TetrahedronMesh {
+        let surface = boundary(&ball_volume(cells));
+        let hub = u32::try_from(surface.positions.len()).unwrap();
+        let mesh = TetrahedronMesh {
+            tetrahedra: surface.triangles.iter().map(|&[a, b, c]| [hub, a, b, c]).collect(),
+            positions: surface.positions.into_iter().chain([[0.0; 3]]).collect(),
+            ..TetrahedronMesh::default()
+        };
+        assert!(mesh.tetrahedra.iter().all(|&t| mesh.six_volumes(t) > 0.0));
+        mesh
+    }
+
+    fn fused(mesh: &TetrahedronMesh) -> Fused {
+        run(mesh, &FusionOptions::default(), 0.5, None, &|_, _| true).ok().unwrap()
+    }
+
+    #[test]
+    fn work_at_one_vertex_follows_its_tetrahedra() {
+        let [few, many] = [20, 40].map(cone);
+        assert_eq!([few.tetrahedra.len(), many.tetrahedra.len()], [4800, 19_200]);
+        let [few, many] = [few, many].map(|mesh| fused(&mesh));
+        assert!(few.n_fusions > 400 && many.n_fusions > 1600, "{} and {}", few.n_fusions, many.n_fusions);
+        let [few, many] = [few.n_read, many.n_read];
+        assert!(
+            many < 6 * few,
+            "{few} entries of stars are read for a quarter of the mesh, {many} for all of it"
+        );
+    }
+}

@@ -58,6 +58,9 @@ pub(crate) struct Fused {
     pub n_tetrahedron_fusions: usize,
     /// The tetrahedra that those left.
     pub n_left_by_tetrahedra: usize,
+    /// Entries of stars read.
+    #[cfg(test)]
+    pub n_read: u64,
 }
 
 impl State {
@@ -165,7 +168,15 @@ impl State {
             rounding: input.rounding,
         };
         let [n_tetrahedron_fusions, n_left_by_tetrahedra] = by_tetrahedra;
-        Fused { mesh, history, n_fusions: self.n_fusions, n_tetrahedron_fusions, n_left_by_tetrahedra }
+        Fused {
+            mesh,
+            history,
+            n_fusions: self.n_fusions,
+            n_tetrahedron_fusions,
+            n_left_by_tetrahedra,
+            #[cfg(test)]
+            n_read: self.mesh.n_read(),
+        }
     }
 }
 
