@@ -17,6 +17,7 @@
 use super::tetrahedra::{FACES, FaceLists, boundary_faces, boundary_triangles};
 use nephrite_formats::{Attribute, TetrahedronMesh};
 use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
 
 /// How many vertices and tetrahedra each rule of the repair touched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -109,9 +110,12 @@ fn first_at_position(mesh: &TetrahedronMesh) -> Vec<u32> {
 fn first_in_tetrahedra(mesh: &TetrahedronMesh, firsts: &[u32]) -> Vec<u32> {
     #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
     let mut roots: Vec<u32> = (0..firsts.len() as u32).collect();
-    let find = |roots: &[u32], mut v: u32| {
+    // Every other step of a way is made shorter, so that ways through very many vertices at one place are gone once.
+    let find = |roots: &mut [u32], mut v: u32| {
         while roots[v as usize] != v {
-            v = roots[v as usize];
+            let next = roots[roots[v as usize] as usize];
+            roots[v as usize] = next;
+            v = next;
         }
         v
     };
@@ -119,14 +123,14 @@ fn first_in_tetrahedra(mesh: &TetrahedronMesh, firsts: &[u32]) -> Vec<u32> {
         for (i, &a) in tetrahedron.iter().enumerate() {
             for &b in &tetrahedron[..i] {
                 if firsts[a as usize] == firsts[b as usize] {
-                    let (a, b) = (find(&roots, a), find(&roots, b));
+                    let (a, b) = (find(&mut roots, a), find(&mut roots, b));
                     roots[a.max(b) as usize] = a.min(b);
                 }
             }
         }
     }
     #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
-    (0..firsts.len() as u32).map(|v| find(&roots, v)).collect()
+    (0..firsts.len() as u32).map(|v| find(&mut roots, v)).collect()
 }
 
 /// Faces with more than two tetrahedra, and edges of the boundary with other than two faces.
@@ -139,7 +143,7 @@ fn n_faults(tetrahedra: &[[u32; 4]], n_vertices: usize) -> usize {
             n_faults += usize::from(same.len() > 2);
             if let [face] = same {
                 let [a, b, c] = FACES[face.corner as usize].map(|i| tetrahedra[face.slot as usize][i]);
-                edges.extend([[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]));
+                edges.extend([ascending(a, b), ascending(b, c), ascending(c, a)]);
             }
         }
     }
@@ -238,6 +242,27 @@ fn fitting_faces(mesh: &TetrahedronMesh) -> Vec<[u8; 2]> {
     counts
 }
 
+/// Largest star of a vertex that is moved: all of it is looked at once for each inverted tetrahedron there.
+const MAX_STAR: usize = 512;
+
+/// The tetrahedra at every vertex: those of vertex `v` are `slots[starts[v]..starts[v + 1]]`. O(n).
+fn stars(tetrahedra: &[[u32; 4]], n_vertices: usize) -> (Vec<usize>, Vec<usize>) {
+    let mut starts = vec![0; n_vertices + 2];
+    tetrahedra.as_flattened().iter().for_each(|&v| starts[v as usize + 2] += 1);
+    for v in 2..starts.len() {
+        starts[v] += starts[v - 1];
+    }
+    let mut slots = vec![0; 4 * tetrahedra.len()];
+    for (slot, tetrahedron) in tetrahedra.iter().enumerate() {
+        for &v in tetrahedron {
+            let next = &mut starts[v as usize + 1];
+            slots[*next] = slot;
+            *next += 1;
+        }
+    }
+    (starts, slots)
+}
+
 /// Moves vertices to make volumes positive, by rule 4.
 fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     let inverted: Vec<[u32; 4]> =
@@ -253,13 +278,15 @@ fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
             FACES[corner].iter().for_each(|&i| is_on_boundary[tetrahedron[i] as usize] = true);
         }
     }
+    let (starts, slots) = stars(&mesh.tetrahedra, mesh.positions.len());
+    let star = |v: u32| &slots[starts[v as usize]..starts[v as usize + 1]];
     for tetrahedron in inverted {
         if mesh.six_volumes(tetrahedron) >= 0.0 {
             continue;
         }
-        let inner = tetrahedron.into_iter().filter(|&v| !is_on_boundary[v as usize]);
-        for v in inner {
-            if move_to_middle(mesh, v) {
+        let may_move = |v: u32| !is_on_boundary[v as usize] && star(v).len() <= MAX_STAR;
+        for v in tetrahedron.into_iter().filter(|&v| may_move(v)) {
+            if move_to_middle(mesh, v, star(v)) {
                 report.vertices_moved += 1;
                 break;
             }
@@ -276,26 +303,35 @@ fn peel(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     }
     let bits = boundary_faces(&mesh.tetrahedra, mesh.positions.len());
     let surface = boundary_triangles(&mesh.tetrahedra, mesh.positions.len());
-    let mut peeled: Vec<usize> = Vec::new();
+    let edges: HashSet<[u32; 2]> =
+        surface.iter().flat_map(|&[a, b, c]| [ascending(a, b), ascending(b, c), ascending(c, a)]).collect();
+    let mut is_kept = vec![true; mesh.tetrahedra.len()];
+    let mut is_touched = vec![false; mesh.positions.len()];
     for i in inverted {
         let corners = mesh.tetrahedra[i];
         let opposite: Vec<u32> =
             (0..4).filter(|corner| bits[i] >> corner & 1 == 1).map(|c| corners[c]).collect();
         let [a, b] = opposite[..] else { continue };
-        let is_inside = !surface.iter().any(|face| face.contains(&a) && face.contains(&b));
-        let is_apart = !peeled.iter().any(|&j| corners.iter().any(|v| mesh.tetrahedra[j].contains(v)));
+        let is_inside = !edges.contains(&ascending(a, b));
+        let is_apart = !corners.iter().any(|&v| is_touched[v as usize]);
         if is_inside && is_apart {
-            peeled.push(i);
+            is_kept[i] = false;
+            corners.iter().for_each(|&v| is_touched[v as usize] = true);
+            report.tetrahedra_peeled += 1;
         }
     }
-    peeled.iter().rev().for_each(|&i| _ = mesh.tetrahedra.remove(i));
-    report.tetrahedra_peeled = peeled.len();
+    let mut kept = is_kept.into_iter();
+    mesh.tetrahedra.retain(|_| kept.next().unwrap_or(true));
 }
 
-/// Moves a vertex as little as makes every tetrahedron around it positive, or not at all.
-fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32) -> bool {
+fn ascending(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Moves a vertex with a star as little as makes every tetrahedron around it positive, or not at all.
+fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32, star: &[usize]) -> bool {
     const PARTS: f32 = 16.0;
-    let star: Vec<[u32; 4]> = mesh.tetrahedra.iter().copied().filter(|t| t.contains(&v)).collect();
+    let star: Vec<[u32; 4]> = star.iter().map(|&slot| mesh.tetrahedra[slot]).collect();
     let others: Vec<u32> = star.iter().flatten().copied().filter(|&w| w != v).collect();
     let mut middle = [0.0_f32; 3];
     for &w in &others {
@@ -316,6 +352,7 @@ fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32) -> bool {
 }
 
 #[cfg(test)]
+#[allow(clippy::cast_precision_loss, reason = "coordinates below 2^24")]
 mod tests {
     use super::*;
 
@@ -386,5 +423,64 @@ mod tests {
         let (peeled, report) = repair_tetrahedra(&mesh(&points, &fan));
         assert_eq!(report.tetrahedra_peeled + report.tetrahedra_inverted, 1);
         assert_eq!(peeled.tetrahedra.len(), 4 - report.tetrahedra_peeled);
+    }
+
+    /// Copies of a mesh beside each other.
+    fn copies(one: &TetrahedronMesh, n: u32) -> TetrahedronMesh {
+        let n_vertices = u32::try_from(one.positions.len()).unwrap();
+        let place = |i: u32| [(4 * (i % 256)) as f32, (4 * (i / 256)) as f32];
+        let positions = (0..n).flat_map(|i| {
+            let [right, up] = place(i);
+            one.positions.iter().map(move |&[x, y, z]| [x + right, y + up, z])
+        });
+        let tetrahedra =
+            (0..n).flat_map(|i| one.tetrahedra.iter().map(move |t| t.map(|v| v + i * n_vertices)));
+        TetrahedronMesh {
+            positions: positions.collect(),
+            tetrahedra: tetrahedra.collect(),
+            ..TetrahedronMesh::default()
+        }
+    }
+
+    // In the three tests below, a pass over the mesh for each place would be ten thousand million steps and more.
+
+    #[test]
+    fn vertices_that_turn_tetrahedra_inside_out_in_many_places_are_moved_back() {
+        const N: u32 = 50_000;
+        let mut points = POINTS[..4].to_vec();
+        points.push([0.25, 0.25, -0.125]);
+        let one = mesh(&points, &[[4, 1, 2, 3], [0, 4, 2, 3], [0, 1, 4, 3], [0, 1, 2, 4]]);
+        let (_, report) = repair_tetrahedra(&copies(&one, N));
+        assert_eq!((report.vertices_moved, report.tetrahedra_inverted), (N as usize, 0));
+    }
+
+    #[test]
+    fn inverted_tetrahedra_in_many_places_are_peeled_off() {
+        const N: u32 = 50_000;
+        // A flat one over two others; two of its corners pushed up through the edge between the other two.
+        let points = |z| [[0.0; 3], [1.0, 1.0, 0.0], [1.0, 0.0, z], [0.0, 1.0, z], [0.5, 0.5, -1.0]];
+        let one = |z| mesh(&points(z), &[[0, 1, 2, 3], [3, 2, 0, 4], [2, 3, 1, 4]]);
+        assert_eq!(repair_tetrahedra(&one(-0.125)).1, TetrahedronRepairReport::default());
+        let one = one(0.125);
+        let n_peeled = repair_tetrahedra(&one).1.tetrahedra_peeled;
+        let (_, report) = repair_tetrahedra(&copies(&one, N));
+        assert_eq!((n_peeled, report.tetrahedra_peeled), (1, N as usize));
+    }
+
+    #[test]
+    fn very_many_vertices_at_one_place_are_welded() {
+        // Two tetrahedra that share the place of an edge only, and flat ones in a chain, from its end.
+        const N: u32 = 300_000;
+        let mut positions = vec![[9.0; 3]; N as usize];
+        positions.extend([[8.0; 3], [7.0, 8.0, 9.0]]);
+        let edge = [[0.0; 3], [1.0, 0.0, 0.0]];
+        positions.extend(edge.into_iter().chain([[0.0, 1.0, 0.0], [0.0, 1.0, 1.0]]));
+        positions.extend(edge.into_iter().chain([[0.0, -1.0, 0.0], [0.0, -1.0, -1.0]]));
+        let flat = (1..N).rev().map(|i| [i, i - 1, N, N + 1]);
+        let whole = [2, 6].map(|i| [i, i + 1, i + 2, i + 3].map(|v| v + N));
+        let tetrahedra: Vec<[u32; 4]> = whole.into_iter().chain(flat).collect();
+        let (_, report) = repair_tetrahedra(&mesh(&positions, &tetrahedra));
+        assert_eq!((report.vertices_welded, report.vertices_coincident), (N as usize - 1, 2));
+        assert_eq!(report.tetrahedra_degenerate, N as usize - 1);
     }
 }
