@@ -70,6 +70,32 @@ fn pieces() -> Cases {
             "pieces-second-empty",
             edited(TEXT, "</Piece>", "</Piece><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/>"),
         ),
+        (
+            "pieces-first-empty",
+            edited(TEXT, "<Piece ", "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/><Piece "),
+        ),
+        (
+            "pieces-second-empty-of-other-type",
+            edited(
+                TEXT,
+                "</Piece>",
+                "</Piece><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">\n\
+                 <Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\"></DataArray></Points>\n\
+                 <Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\"></DataArray>\n\
+                 <DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\"></DataArray>\n\
+                 <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\"></DataArray></Cells></Piece>",
+            ),
+        ),
+        (
+            "pieces-all-empty",
+            "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/>\
+             </UnstructuredGrid></VTKFile>"
+                .into(),
+        ),
+        (
+            "pieces-second-without-points",
+            edited(TEXT, "</Piece>", "</Piece><Piece NumberOfPoints=\"5\" NumberOfCells=\"0\"/>"),
+        ),
         ("pieces-second-without-field", with_second_piece(heat, "")),
         ("pieces-second-with-another-field", with_second_piece("\"heat\"", "\"cold\"")),
         ("pieces-field-of-other-type", with_second_piece("Float64", "Int8")),

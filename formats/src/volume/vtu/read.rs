@@ -13,7 +13,7 @@ use crate::volume::vtk::kind_of;
 use crate::{TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
 
 /// Reads a VTU file. Of several pieces the points are numbered on, and a field is taken where every piece has it with as many components
-/// of one type.
+/// of one type. Pieces that have neither points nor cells say nothing, whatever else they have or lack.
 ///
 /// # Errors
 ///
@@ -40,12 +40,13 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeRe
     let grid = child(root, "UnstructuredGrid")?;
     let mut report = VolumeReport::new(VolumeFormat::Vtu);
     let mut whole: Option<Piece> = None;
-    for node in grid.children().filter(|node| node.has_tag_name("Piece")) {
+    for node in grid.children().filter(|node| node.has_tag_name("Piece") && !is_bare(*node)) {
         let n_before = whole.as_ref().map_or(0, |whole| whole.points.len());
         let piece = read_piece(node, &encoding, n_before, &mut report)?;
         whole = Some(match whole {
-            None => piece,
-            Some(whole) => whole.join(piece, &mut report)?,
+            Some(whole) if piece.points.len() == 0 => whole,
+            Some(whole) if whole.points.len() > 0 => whole.join(piece, &mut report)?,
+            _ => piece,
         });
     }
     let Piece { points, is_text, cells, fields } =
@@ -150,6 +151,14 @@ impl Piece {
         others.into_iter().chain(unfit).for_each(|field| leave_out(field.name));
         Ok(self)
     }
+}
+
+/// Whether a piece says that it has no points and no cells, and has no place for points: writers in parallel leave such pieces where
+/// a process had nothing to write.
+fn is_bare(piece: Node<'_, '_>) -> bool {
+    let has_none = |name| piece.attribute(name).is_some_and(|count| count.parse() == Ok(0_u64));
+    let coordinates = child(piece, "Points").ok().and_then(|points| arrays(points).next());
+    has_none("NumberOfPoints") && has_none("NumberOfCells") && coordinates.is_none()
 }
 
 /// Reads a piece before whose points there are those of others, three numbers each.
