@@ -7,7 +7,7 @@ mod support;
 
 use nephrite::Lod;
 use nephrite::history::History;
-use nephrite::store::{Provenance, StoreOptions, WriteError, write, write_to};
+use nephrite::store::{Provenance, StoreOptions, WriteError, check_attributes, write, write_to};
 use nephrite::{ScalarType, TriangleMesh};
 use std::fs;
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
@@ -173,14 +173,14 @@ fn input_that_does_not_fit_is_refused_with_its_error() {
     let refused = |edit: fn(&mut TriangleMesh)| {
         let mut mesh = mesh.clone();
         edit(&mut mesh);
-        write_to(
-            &mut Cursor::new(Vec::new()),
-            &mesh,
-            &history,
-            &Provenance::default(),
-            &StoreOptions::default(),
-        )
-        .unwrap_err()
+        let (stream, options) = (&mut Cursor::new(Vec::new()), StoreOptions::default());
+        let error = write_to(stream, &mesh, &history, &Provenance::default(), &options).unwrap_err();
+        // Known before a build already.
+        let is_of_attributes =
+            matches!(error, WriteError::Attribute { .. } | WriteError::TooManyAttributes { .. });
+        let before = check_attributes(&mesh).err().map(|error| error.to_string());
+        assert_eq!(before, is_of_attributes.then(|| error.to_string()));
+        error
     };
     let attribute = |error: WriteError| match error {
         WriteError::Attribute { what, .. } => what,

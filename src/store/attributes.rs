@@ -14,6 +14,15 @@ pub(super) struct AttributeSections {
     pub values_bytes: u64,
 }
 
+/// Looks whether a file holds the attributes of a mesh: before a build, at whose end it would be late to be told.
+///
+/// # Errors
+///
+/// What [`write_to`](super::write_to) would say of them.
+pub fn check_attributes<'a>(mesh: impl Into<Vertices<'a>>) -> Result<(), WriteError> {
+    AttributeSections::new(mesh.into(), 0).map(drop)
+}
+
 impl AttributeSections {
     /// The attributes of `mesh` for `n_stored` of its vertices.
     pub(super) fn new(mesh: Vertices<'_>, n_stored: usize) -> Result<Self, WriteError> {

@@ -24,6 +24,7 @@ mod verify;
 mod vertices;
 mod write;
 
+pub use attributes::check_attributes;
 pub use compact::CompactFault;
 pub use error::{OpenError, VerifyError, WriteError};
 pub use metadata::{Metadata, Provenance};

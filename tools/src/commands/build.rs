@@ -260,6 +260,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
 
 /// Runs the decimator under a progress bar.
 fn decimate(arguments: &Arguments, mesh: &TriangleMesh, bounding_diagonal: f64) -> Result<Build, Failure> {
+    store::check_attributes(mesh).map_err(|source| Failure::file(&arguments.mesh, source))?;
     let bar = BuildBar::new(bounding_diagonal);
     let options = arguments.options(bounding_diagonal);
     nephrite::build(mesh, &options, &|progress| bar.observe(progress))

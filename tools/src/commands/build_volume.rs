@@ -112,6 +112,7 @@ impl Request<'_> {
         bounding_diagonal: f64,
         half: &OnceLock<Instant>,
     ) -> Result<VolumeBuild, Failure> {
+        store::check_attributes(mesh).map_err(|source| Failure::file(self.input, source))?;
         let bar = BuildBar::new(bounding_diagonal);
         let build = nephrite::build_volume(mesh, options, &|progress| {
             if 2 * progress.n_triangles <= progress.n_triangles_in {

@@ -14,6 +14,7 @@ use std::time::Instant;
 use nephrite::TriangleMesh;
 use nephrite::history::{History, Levels};
 use nephrite::query::CurvePoint;
+use nephrite::store::check_attributes;
 use nephrite_formats::{MeshFormat, VolumeFormat, neph, read_input};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -171,6 +172,7 @@ fn build_one(arguments: &Arguments, bytes: Vec<u8>) -> Result<Value, Failure> {
     }
     let start = Instant::now();
     let mesh = read_part(arguments.mesh(), bytes)?;
+    check_attributes(&mesh).map_err(|source| Failure::file(arguments.mesh(), source))?;
     let diagonal = nephrite::bounding_diagonal(&mesh);
     let go_on = |_: &nephrite::Progress| {
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
