@@ -1,4 +1,4 @@
-//! Promise: no shape of a mesh makes its build take time out of proportion: a million components, stars of a hundred thousand triangles.
+//! Promise: no shape of a mesh makes its build take time out of proportion: a million components, stars of 300,000 triangles.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_precision_loss, reason = "coordinates below 2^24")]
@@ -6,10 +6,10 @@
 use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::{Bound, BuildOptions, Method, TriangleMesh, build};
 use std::ops::ControlFlow::Continue;
-use std::time::{Duration, Instant};
+use watchdog::Watchdog;
 
-/// Some seconds where nobody else works; quadratic time would be hours.
-const LONGEST: Duration = Duration::from_secs(120);
+#[path = "support/watchdog.rs"]
+mod watchdog;
 
 #[test]
 fn of_a_million_components() {
@@ -23,10 +23,8 @@ fn of_a_million_components() {
         triangles: (0..N).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         ..TriangleMesh::default()
     };
-    let start = Instant::now();
+    let _watchdog = Watchdog::over("a million components");
     let built = build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
-    let elapsed = start.elapsed();
-    assert!(elapsed < LONGEST, "{elapsed:?}");
     assert_eq!(built.mesh.triangles.len(), mesh.triangles.len());
 }
 
@@ -41,12 +39,13 @@ fn fan(n: u32, place: impl Fn(f32, u32) -> [f32; 3]) -> TriangleMesh {
 }
 
 #[test]
-fn of_a_star_of_a_hundred_thousand_triangles() {
+fn of_a_star_of_three_hundred_thousand_triangles() {
+    const N: u32 = 300_000;
     // Numbers without a pattern, from 0 to 1.
     let noise = |i: u32| (i.wrapping_mul(2_654_435_761) >> 16) as f32 / 65_536.0;
-    let disk = fan(100_000, |angle, _| [angle.cos(), angle.sin(), 0.0]);
-    let cone = fan(100_000, |angle, _| [angle.cos(), angle.sin(), 1.0]);
-    let rugged = fan(100_000, |angle, i| {
+    let disk = fan(N, |angle, _| [angle.cos(), angle.sin(), 0.0]);
+    let cone = fan(N, |angle, _| [angle.cos(), angle.sin(), 1.0]);
+    let rugged = fan(N, |angle, i| {
         let radius = 1.0 + 0.3 * noise(i);
         [radius * angle.cos(), radius * angle.sin(), 1.0 + 0.2 * noise(i + 7)]
     });
@@ -59,10 +58,8 @@ fn of_a_star_of_a_hundred_thousand_triangles() {
     let ways = [BuildOptions::default(), progressive(false), progressive(true)];
     for (shape, mesh) in [("disk", disk), ("cone", cone), ("rugged cone", rugged)] {
         for options in &ways {
-            let start = Instant::now();
+            let _watchdog = Watchdog::over(format_args!("{shape}, {:?}", options.method));
             build(&mesh, options, &|_| Continue(())).unwrap();
-            let elapsed = start.elapsed();
-            assert!(elapsed < LONGEST, "{shape}, {:?}: {elapsed:?}", options.method);
         }
     }
 }

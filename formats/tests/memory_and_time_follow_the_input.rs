@@ -9,9 +9,9 @@ mod capped;
 mod samples;
 
 use std::fmt::Write;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use capped::{BYTES_ALWAYS, Capped, alone, within};
+use capped::{BYTES_ALWAYS, Capped, Watchdog, alone, within};
 use nephrite_formats::{
     MeshError, MeshFormat, ReadReport, TriangleMesh, VolumeFormat, read_mesh_bytes, read_volume_bytes,
 };
@@ -112,6 +112,7 @@ fn a_gigabyte_in_one_line() {
     for (name, head, fill, format) in meshes.into_iter().chain(volumes) {
         let mut bytes = head.as_bytes().to_vec();
         bytes.resize(GIGABYTE, fill.as_bytes()[0]);
+        let _watchdog = Watchdog::over(&name);
         let start = Instant::now();
         // What a reader copies at most: the text once, and once more as a string.
         let capped = Capped::to(2 * GIGABYTE + BYTES_ALWAYS);
@@ -120,9 +121,8 @@ fn a_gigabyte_in_one_line() {
             Err(format) => read_volume_bytes(&bytes, format).is_err(),
         };
         drop(capped);
-        let elapsed = start.elapsed();
-        println!("{name}, {head:?} and a gigabyte of {fill:?}: {elapsed:.1?}");
-        assert!(is_refused && elapsed < Duration::from_secs(60), "{name}: {elapsed:?}");
+        println!("{name}, {head:?} and a gigabyte of {fill:?}: {:.1?}", start.elapsed());
+        assert!(is_refused, "{name}");
     }
 }
 
@@ -131,7 +131,8 @@ fn a_face_of_a_hundred_thousand_corners() {
     let _guard = alone();
     let n_corners = 100_000_u32;
     let mut star = String::new();
-    // A star with spikes of random length: simple; and the same corners in an order that crosses itself everywhere.
+    // A star with spikes of random length: simple, and cut within the work allowed, which is counted, or else it would be folded; and the same
+    // corners in an order that crosses itself everywhere.
     let mut random = 1_u32;
     for i in 0..n_corners {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -166,14 +167,14 @@ fn many_hostile_polygons() {
 }
 
 #[test]
-fn a_position_with_a_hundred_thousand_normals() {
+fn a_position_with_a_million_normals() {
     let _guard = alone();
     let mut text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
-    for i in 1..=100_000 {
+    for i in 1..=1_000_000 {
         writeln!(text, "vn 0 0 {i}\nf 1//{i} 2//{i} 3//{i}").unwrap();
     }
     let (mesh, _) = read_within(text.as_bytes(), MeshFormat::Obj).unwrap();
-    assert_eq!(mesh.positions.len(), 300_000);
+    assert_eq!(mesh.positions.len(), 3_000_000);
 }
 
 #[test]
