@@ -15,7 +15,7 @@ const MAX_ASKED: usize = Set::BITS as usize;
 const LANES: usize = 8;
 
 /// A bit for each of the vertices.
-type Set = u128;
+type Set = u64;
 
 /// Source vertices over a hole, or some of them.
 ///

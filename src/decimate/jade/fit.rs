@@ -5,7 +5,7 @@
 //! the best filling outright costs little more, since each of the few possible triangles is scored once, and it needs
 //! a quarter fewer triangles at the same error.
 
-use super::asked::{Asked, MAX_CORNERS};
+use super::asked::Asked;
 use super::classify::Class;
 use super::optimal::triangulate_optimally;
 use super::triangulate::{Polygons, collect_part, ring_index};
@@ -43,25 +43,24 @@ pub fn fit(
         return None;
     }
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
-    let mut is_taken = [[false; MAX_CORNERS]; MAX_CORNERS];
+    let mut taken = vec![];
     loop {
-        let worst_sq = fit_around(fitting, &is_taken, asked, polygons, filling)?;
+        let worst_sq = fit_around(fitting, &taken, asked, polygons, filling)?;
         if worst_sq > limit_sq {
             return Some(worst_sq);
         }
         let n_faces = |[i, j]: [u8; 2]| surface.n_faces(hole.ring[usize::from(i)], hole.ring[usize::from(j)]);
-        let Some([i, j]) = filling.inner_edges(hole).find(|&edge| n_faces(edge) > 0) else {
+        let Some(edge) = filling.inner_edges(hole).find(|&edge| n_faces(edge) > 0) else {
             return Some(worst_sq);
         };
-        is_taken[usize::from(i)][usize::from(j)] = true;
-        is_taken[usize::from(j)][usize::from(i)] = true;
+        taken.push(edge);
     }
 }
 
 /// The same without the edges between ring vertices that are taken.
 fn fit_around(
     fitting: Fitting<'_>,
-    is_taken: &[[bool; MAX_CORNERS]; MAX_CORNERS],
+    taken: &[[u8; 2]],
     asked: &mut Asked,
     polygons: &mut Polygons,
     filling: &mut Filling,
@@ -71,8 +70,7 @@ fn fit_around(
     filling.triangles.clear();
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     let mut score = |triangle: [u8; 3], cutoff: f64| {
-        let [a, b, c] = triangle.map(usize::from);
-        if is_taken[a][b] || is_taken[b][c] || is_taken[a][c] {
+        if taken.iter().any(|edge| edge.iter().all(|corner| triangle.contains(corner))) {
             return f64::INFINITY;
         }
         largest_distance_sq(hole, asked, triangle, worst_aspect, cutoff.min(enough_sq))
