@@ -21,7 +21,7 @@ pub mod volume;
 
 pub use build::{
     Bound, Build, BuildError, BuildOptions, Method, Observer, Phase, Progress, VolumeBuild, VolumeOptions,
-    bounding_diagonal, build, build_volume,
+    bounding_diagonal, build, build_from, build_volume,
 };
 pub use history::History;
 pub use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh, TriangleMesh};

@@ -6,7 +6,7 @@
 
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, length_sq, scale, sub};
-use crate::mesh::{Hole, Surface};
+use crate::mesh::{Hole, Renumbering, Surface};
 
 /// Most random samples on one triangle.
 const MAX_RANDOM_SAMPLES: usize = 8;
@@ -107,6 +107,11 @@ impl Accumulated {
     /// No error yet, in any of `n_slots` slots.
     pub fn new(n_slots: usize) -> Self {
         Self { errors: vec![0.0; n_slots] }
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        slots.close_up(&mut self.errors);
     }
 
     /// Error of the triangle in `slot`.

@@ -5,7 +5,7 @@ use super::accumulated::{Accumulated, Sampler};
 use super::removed::{RemovedVertices, nearest};
 use super::{Errors, Limits, Replacement};
 use crate::geometry::distance::point_segment_distance_sq;
-use crate::mesh::{Filling, Hole, Surface};
+use crate::mesh::{Filling, Hole, Renumbering, Surface};
 
 /// Which estimate decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,6 +94,16 @@ impl Estimate {
         let vertices = self.removed.iter().flat_map(|removed| removed.of_hole(hole));
         let assignments = vertices.map(|v| (v, nearest(hole, filling, surface.point(v)).0)).collect();
         Change { accumulated, assignments }
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        if let Some(accumulated) = &mut self.accumulated {
+            accumulated.renumber_slots(slots);
+        }
+        if let Some(removed) = &mut self.removed {
+            removed.renumber_slots(slots);
+        }
     }
 
     /// Carries the estimates over to the filling.

@@ -6,7 +6,7 @@ pub mod covered;
 pub mod estimate;
 pub mod removed;
 
-use crate::mesh::{Filling, Hole, Surface, TooMany};
+use crate::mesh::{Filling, Hole, Renumbering, Surface, TooMany};
 use certified::{Certified, Transfer};
 use covered::Covered;
 use estimate::Estimate;
@@ -77,6 +77,14 @@ impl GlobalError {
     pub fn compact(&mut self) {
         if let Self::Certified(certified) = self {
             certified.compact();
+        }
+    }
+
+    /// Gives every slot its new number; changes found before are no longer current.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        match self {
+            Self::Certified(certified) => certified.renumber_slots(slots),
+            Self::Estimate(estimate) => estimate.renumber_slots(slots),
         }
     }
 

@@ -6,7 +6,7 @@
 
 use crate::geometry::distance::point_triangle_distance_sq;
 use crate::geometry::vector::Vector;
-use crate::mesh::{Filling, Hole};
+use crate::mesh::{Filling, Hole, Renumbering};
 
 /// End of a list.
 const NONE: u32 = u32::MAX;
@@ -22,6 +22,11 @@ impl RemovedVertices {
     /// Empty lists for `n_slots` slots over `n_vertices` vertices.
     pub fn new(n_slots: usize, n_vertices: usize) -> Self {
         Self { first: vec![NONE; n_slots], next: vec![NONE; n_vertices] }
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        slots.close_up(&mut self.first);
     }
 
     /// Vertices that belong to `slot`.

@@ -14,7 +14,7 @@ use crate::bound::GlobalError;
 use crate::bound::certified::Certified;
 use crate::bound::estimate::{Estimate, Kind};
 use crate::decimate::jade::Placement;
-use crate::decimate::jade::decimation::{Decimation, Workers};
+use crate::decimate::jade::decimation::{Decimation, Finished, Workers};
 use crate::decimate::jade::placement::Moves;
 use crate::decimate::jade::rounds::{Unfinished, run};
 use crate::decimate::jade::thresholds::Thresholds;
@@ -30,7 +30,9 @@ use options::check_options;
 /// What a build leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Build {
-    /// The input after repair, and behind its vertices those that were born later: what the history's indices refer to.
+    /// The input after repair, and behind its vertices those that were born later: what the history's indices refer to. Without
+    /// triangles where the mesh was [given away](build_from()) and [`Method::Jade`] has used them up: they are those of the history that
+    /// are born at step 0.
     pub mesh: TriangleMesh,
     /// Every triangle that ever lived.
     pub history: History,
@@ -66,6 +68,41 @@ pub fn build(
 ) -> Result<Build, BuildError> {
     check_options(options)?;
     check_mesh(mesh)?;
+    simplify(mesh.clone(), options, observer, |repaired| repaired.triangles.clone())
+}
+
+/// As [`build()`] for a mesh that nobody needs any more, in less memory: its arrays become those of the decimation.
+///
+/// # Errors
+///
+/// As [`build()`].
+///
+/// ```
+/// use nephrite::{BuildOptions, build_from, generate};
+/// use std::ops::ControlFlow;
+/// let mesh = generate::torus(16, 8);
+/// let n_triangles = mesh.triangles.len();
+/// let build = build_from(mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?;
+/// assert_eq!(build.history.birth.iter().filter(|&&birth| birth == 0).count(), n_triangles);
+/// # Ok::<(), nephrite::BuildError>(())
+/// ```
+pub fn build_from(
+    mesh: TriangleMesh,
+    options: &BuildOptions,
+    observer: Observer<'_>,
+) -> Result<Build, BuildError> {
+    check_options(options)?;
+    check_mesh(&mesh)?;
+    simplify(mesh, options, observer, |_| vec![])
+}
+
+/// Repairs a mesh that was checked and runs the decimator. `keep` gives the triangles that the mesh is to have in the end.
+fn simplify(
+    mesh: TriangleMesh,
+    options: &BuildOptions,
+    observer: Observer<'_>,
+    keep: impl FnOnce(&TriangleMesh) -> Vec<[u32; 3]>,
+) -> Result<Build, BuildError> {
     let n_triangles_in = mesh.triangles.len();
     let max_error = options.max_error;
     let tell = |phase, n_triangles, error| {
@@ -79,14 +116,16 @@ pub fn build(
         return Err(BuildError::NoTriangles { n_triangles: n_triangles_in });
     }
     let repaired = if options.method == Method::Progressive { along_a_curve(repaired) } else { repaired };
-    let Repaired { mesh, points, looks, report: repairs } = repaired;
+    let Repaired { mut mesh, points, looks, report: repairs } = repaired;
     let points_and_looks = points.zip(looks);
     match options.method {
         Method::Jade => {
             let go_on = |decimation: &Decimation| {
                 tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
             };
-            let (history, moves) = decimate(&mesh, points_and_looks, options, &go_on)?;
+            let triangles = keep(&mesh);
+            let (history, moves) = decimate(&mut mesh, points_and_looks, options, &go_on)?;
+            mesh.triangles = triangles;
             let moved = moves.into_iter().flat_map(|moves| moves.born);
             let mesh = with_copies(mesh, moved.map(|(vertex, place)| (vertex, Some(place))));
             Ok(Build { mesh, history, repairs, passage: None })
@@ -157,27 +196,32 @@ fn with_copies(
     mesh
 }
 
+/// Takes the triangles out of `mesh`; everything else is as before in the end.
 fn decimate(
-    mesh: &TriangleMesh,
+    mesh: &mut TriangleMesh,
     points_and_looks: Option<(Vec<u32>, Vec<u32>)>,
     options: &BuildOptions,
     go_on: &dyn Fn(&Decimation) -> bool,
 ) -> Result<(History, Option<Moves>), BuildError> {
+    let bounding_diagonal = bounding_diagonal(mesh);
     let numbering = Numbering::along_curve(&mesh.positions);
-    let mut triangles = mesh.triangles.clone();
+    let mut triangles = std::mem::take(&mut mesh.triangles);
     numbering.sort_triangles(&mut triangles);
     let moves =
         (options.jade.placement == Placement::Best).then(|| Moves::new(&mesh.positions, triangles.len()));
-    let place = |triangles: &[[u32; 3]]| triangles.iter().map(|t| t.map(|v| numbering.place(v))).collect();
-    let (triangles, seams) = match points_and_looks {
-        None => (place(&triangles), None),
+    let (mut triangles, seams) = match points_and_looks {
+        None => (triangles, None),
         Some((points, looks)) => {
-            let over_points: Vec<[u32; 3]> =
-                triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
-            (place(&over_points), Some(Seams::new(triangles, looks)))
+            let over_points = triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
+            (over_points, Some(Seams::new(triangles, looks)))
         }
     };
-    let surface = Surface::new(numbering.arrange(&mesh.positions), triangles);
+    triangles.as_flattened_mut().iter_mut().for_each(|v| *v = numbering.place(*v));
+    let positions = numbering.arrange(&mesh.positions);
+    if moves.is_none() {
+        mesh.positions = vec![];
+    }
+    let surface = Surface::new(positions, triangles);
     let error = match options.bound {
         Bound::Certified => GlobalError::Certified(Certified::new(&surface, mesh.rounding)),
         Bound::Joint => GlobalError::Estimate(Estimate::new(Kind::Joint, &surface)),
@@ -196,12 +240,16 @@ fn decimate(
         moves,
         workers: Workers::new(),
     };
-    let thresholds = Thresholds::new(options.max_error, bounding_diagonal(mesh), &options.jade);
+    let thresholds = Thresholds::new(options.max_error, bounding_diagonal, &options.jade);
     run(&mut decimation, thresholds, go_on).map_err(|unfinished| match unfinished {
         Unfinished::Stopped => BuildError::Interrupted,
         Unfinished::TooLarge(too_many) => too_many.into(),
     })?;
-    Ok(decimation.finish())
+    let Finished { history, moves, positions } = decimation.finish();
+    if let Some(positions) = positions {
+        mesh.positions = positions;
+    }
+    Ok((history, moves))
 }
 
 /// Length of the diagonal of the mesh's bounding box, in mesh units.

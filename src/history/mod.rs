@@ -5,6 +5,7 @@
 //! `birth == s` replaced. Nothing here knows which decimator ran.
 
 mod check;
+mod deaths;
 mod levels;
 mod recorder;
 

@@ -1,96 +1,120 @@
 //! Writes the history down while a decimator runs.
 
+use super::deaths::{Deaths, Record};
 use super::{History, NEVER};
+use crate::mesh::Renumbering;
 
 /// Turns the comings and goings of simplices in slots into lifetimes.
+///
+/// Memory: 4 bytes per slot, some 7 for each triangle that has died, and 16 whenever the error rises.
 #[derive(Clone, Debug)]
 pub struct Recorder<const CORNERS: usize = 3> {
-    history: History<CORNERS>,
+    deaths: Deaths<CORNERS>,
     birth_in_slot: Vec<u32>,
+    /// Steps with a larger error than the one before, and that error; step 0 first.
+    rises: Vec<(u32, f64)>,
+    now: u32,
+    n_vertices_in: usize,
+    /// Births of the vertices that the input does not have.
+    vertex_births: Vec<u32>,
 }
 
 impl<const CORNERS: usize> Recorder<CORNERS> {
     /// A recorder for an input of `n_slots` simplices over `n_vertices` vertices, at step 0 with the given error.
     pub fn new(n_slots: usize, n_vertices: usize, error: f64) -> Self {
-        let history =
-            History { vertex_death: vec![0; n_vertices], errors: vec![error], ..History::default() };
-        Self { history, birth_in_slot: vec![0; n_slots] }
-    }
-
-    /// Makes room for so many simplices in all, so that none is moved while they come.
-    pub fn reserve(&mut self, n_simplices: usize) {
-        let History { simplices, birth, death, .. } = &mut self.history;
-        simplices.reserve(n_simplices);
-        birth.reserve(n_simplices);
-        death.reserve(n_simplices);
+        Self {
+            deaths: Deaths::new(),
+            birth_in_slot: vec![0; n_slots],
+            rises: vec![(0, error)],
+            now: 0,
+            n_vertices_in: n_vertices,
+            vertex_births: vec![],
+        }
     }
 
     /// Starts the next step. Its error is `error`, or that of the step before if that is larger.
     pub fn step(&mut self, error: f64) {
-        let last = self.history.errors.last().copied().unwrap_or_default();
-        self.history.errors.push(error.max(last));
+        self.now += 1;
+        if error > self.error() {
+            self.rises.push((self.now, error));
+        }
     }
 
     /// Steps so far, the number of the current one.
     pub fn n_steps(&self) -> u32 {
-        self.now()
+        self.now
     }
 
     /// Error of the current step.
     pub fn error(&self) -> f64 {
-        self.history.errors.last().copied().unwrap_or_default()
+        self.rises.last().map_or(0.0, |&(_, error)| error)
     }
 
     /// The simplex in `slot` dies at this step.
     pub fn death(&mut self, slot: u32, simplex: [u32; CORNERS]) {
-        let now = self.now();
-        self.record(slot, simplex, now);
+        self.deaths.push(Record { simplex, birth: self.birth_in_slot[slot as usize], death: self.now });
     }
 
     /// A simplex is born into `slot` at this step.
     pub fn birth(&mut self, slot: u32) {
-        self.birth_in_slot[slot as usize] = self.now();
+        self.birth_in_slot[slot as usize] = self.now;
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        slots.close_up(&mut self.birth_in_slot);
     }
 
     /// A vertex is born at this step; gives its index, the next after those there are. It dies like any other.
     pub fn vertex(&mut self) -> u32 {
-        let now = self.now();
-        let History { vertex_birth, vertex_death, .. } = &mut self.history;
-        vertex_birth.resize(vertex_death.len(), 0);
-        vertex_birth.push(now);
-        vertex_death.push(0);
         #[expect(
             clippy::cast_possible_truncation,
             reason = "`History::check` refuses more vertices than u32 counts"
         )]
-        let vertex = (vertex_death.len() - 1) as u32;
+        let vertex = (self.n_vertices_in + self.vertex_births.len()) as u32;
+        self.vertex_births.push(self.now);
         vertex
     }
 
-    /// The whole history, given what is alive now. A vertex dies with the last simplex that uses it.
-    pub fn finish(mut self, alive: impl Iterator<Item = (u32, [u32; CORNERS])>) -> History<CORNERS> {
-        alive.for_each(|(slot, simplex)| self.record(slot, simplex, NEVER));
-        let History { simplices, death, vertex_death, .. } = &mut self.history;
-        for (simplex, &death) in simplices.iter().zip(death.iter()) {
-            for &v in simplex {
-                let last = &mut vertex_death[v as usize];
+    /// The whole history, given what is alive now and in which slots. A vertex dies with the last simplex that uses it.
+    pub fn finish(self, alive: &[(u32, [u32; CORNERS])]) -> History<CORNERS> {
+        let Self { deaths, birth_in_slot, rises, now, n_vertices_in, vertex_births } = self;
+        let n_simplices = deaths.len() + alive.len();
+        let mut history = History {
+            simplices: Vec::with_capacity(n_simplices),
+            birth: Vec::with_capacity(n_simplices),
+            death: Vec::with_capacity(n_simplices),
+            vertex_death: vec![0; n_vertices_in + vertex_births.len()],
+            errors: errors(&rises, now),
+            ..History::default()
+        };
+        if !vertex_births.is_empty() {
+            history.vertex_birth = vec![0; n_vertices_in];
+            history.vertex_birth.extend(vertex_births);
+        }
+        let mut add = |Record { simplex, birth, death }| {
+            history.simplices.push(simplex);
+            history.birth.push(birth);
+            history.death.push(death);
+            for v in simplex {
+                let last = &mut history.vertex_death[v as usize];
                 *last = death.max(*last);
             }
+        };
+        deaths.drain(&mut add);
+        for &(slot, simplex) in alive {
+            add(Record { simplex, birth: birth_in_slot[slot as usize], death: NEVER });
         }
-        self.history
+        history
     }
+}
 
-    fn record(&mut self, slot: u32, simplex: [u32; CORNERS], death: u32) {
-        self.history.simplices.push(simplex);
-        self.history.birth.push(self.birth_in_slot[slot as usize]);
-        self.history.death.push(death);
+/// The error of each step up to `now`.
+fn errors(rises: &[(u32, f64)], now: u32) -> Vec<f64> {
+    let mut errors = Vec::with_capacity(now as usize + 1);
+    let ends = rises.iter().skip(1).map(|&(step, _)| step).chain([now + 1]);
+    for (&(_, error), end) in rises.iter().zip(ends) {
+        errors.resize(end as usize, error);
     }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "fewer steps than vertices, and vertices are counted in u32"
-    )]
-    fn now(&self) -> u32 {
-        (self.history.errors.len() - 1) as u32
-    }
+    errors
 }

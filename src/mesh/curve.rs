@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn the_mesh_is_the_same_and_neighbours_are_near() {
-        let repaired = repair(&generate::plate(3, 2, 16));
+        let repaired = repair(generate::plate(3, 2, 16));
         let along = along_a_curve(repaired.clone());
         let (before, after) = (&repaired.mesh, &along.mesh);
         assert_eq!(shape(before).len(), shape(after).len());
@@ -74,7 +74,7 @@ mod tests {
             n_components: 1,
             bytes: look,
         });
-        let along = along_a_curve(repair(&doubled));
+        let along = along_a_curve(repair(doubled));
         let points = along.points.unwrap();
         for (v, &point) in (0..).zip(&points) {
             assert!(point <= v && points[point as usize] == point);

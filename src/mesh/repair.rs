@@ -50,36 +50,38 @@ pub struct Repaired {
     pub report: RepairReport,
 }
 
-/// Applies the rules of this module. O(n log n).
-pub fn repair(mesh: &TriangleMesh) -> Repaired {
+/// Applies the rules of this module, in the arrays that the mesh has. O(n log n).
+pub fn repair(mut mesh: TriangleMesh) -> Repaired {
     let mut report = RepairReport::default();
-    let Weld { vertices, points, looks } = weld(mesh);
+    let Weld { vertices, points, looks } = weld(&mesh);
     report.vertices_welded = count_moved(&vertices);
 
-    let mut triangles = Vec::with_capacity(mesh.triangles.len());
-    for triangle in &mesh.triangles {
+    let n_triangles_in = mesh.triangles.len();
+    mesh.triangles.retain(|triangle| {
         let [a, b, c] = triangle.map(|v| points[v as usize]);
-        if a == b || b == c || c == a {
-            report.triangles_degenerate += 1;
-        } else {
-            triangles.push(triangle.map(|v| vertices[v as usize]));
-        }
+        a != b && b != c && c != a
+    });
+    report.triangles_degenerate = n_triangles_in - mesh.triangles.len();
+    for v in mesh.triangles.as_flattened_mut() {
+        *v = vertices[*v as usize];
     }
-    report.triangles_duplicate = drop_duplicates(&mut triangles, &points);
-    report.triangles_zero_area = triangles.iter().filter(|t| has_zero_area(mesh, t)).count();
+    drop(vertices);
+    report.triangles_duplicate = drop_duplicates(&mut mesh.triangles, &points);
+    report.triangles_zero_area = mesh.triangles.iter().filter(|t| has_zero_area(&mesh, t)).count();
 
-    let renumbered = renumber_referenced(mesh.positions.len(), &triangles);
+    let renumbered = renumber_referenced(mesh.positions.len(), &mesh.triangles);
     let n_used = renumbered.iter().filter(|&&v| v != UNUSED).count();
     report.vertices_unreferenced = mesh.positions.len() - n_used - report.vertices_welded;
-    for triangle in &mut triangles {
-        *triangle = triangle.map(|v| renumbered[v as usize]);
+    for v in mesh.triangles.as_flattened_mut() {
+        *v = renumbered[*v as usize];
     }
     let points = first_used(&points, &renumbered, n_used);
     report.vertices_on_seams = count_shared(&points);
     let has_seams = report.vertices_on_seams > 0;
     let looks = has_seams.then(|| first_used(&looks, &renumbered, n_used));
     let points = has_seams.then_some(points);
-    Repaired { mesh: keep_used(mesh, triangles, &renumbered), points, looks, report }
+    keep_used(&mut mesh, &renumbered);
+    Repaired { mesh, points, looks, report }
 }
 
 const UNUSED: u32 = u32::MAX;
@@ -174,12 +176,13 @@ fn drop_duplicates(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> usize {
             [c, a, b]
         }
     };
-    let mut order: Vec<usize> = (0..triangles.len()).collect();
-    order.par_sort_unstable_by_key(|&t| (key(&triangles[t]), t));
+    let mut order: Vec<u32> = (0..).take(triangles.len()).collect();
+    order.par_sort_unstable_by_key(|&t| (key(&triangles[t as usize]), t));
     let mut keep = vec![true; triangles.len()];
     for pair in order.windows(2) {
-        if key(&triangles[pair[0]]) == key(&triangles[pair[1]]) {
-            keep[pair[1]] = false;
+        let [first, second] = [pair[0] as usize, pair[1] as usize];
+        if key(&triangles[first]) == key(&triangles[second]) {
+            keep[second] = false;
         }
     }
     let n_before = triangles.len();
@@ -227,20 +230,19 @@ fn count_shared(points: &[u32]) -> usize {
     points.iter().filter(|&&point| n_at_point[point as usize] > 1).count()
 }
 
-fn keep_used(mesh: &TriangleMesh, triangles: Vec<[u32; 3]>, renumbered: &[u32]) -> TriangleMesh {
-    let used = || renumbered.iter().enumerate().filter(|&(_, &index)| index != UNUSED).map(|(v, _)| v);
-    let keep_values = |attribute: &Attribute| {
+/// Drops the vertices that are not numbered, in place.
+fn keep_used(mesh: &mut TriangleMesh, renumbered: &[u32]) {
+    for attribute in &mut mesh.attributes {
         let stride = attribute.stride_bytes();
-        let bytes = used().flat_map(|v| &attribute.bytes[v * stride..][..stride]).copied().collect();
-        Attribute { name: attribute.name.clone(), bytes, ..*attribute }
-    };
-    TriangleMesh {
-        origin: mesh.origin,
-        positions: used().map(|v| mesh.positions[v]).collect(),
-        triangles,
-        attributes: mesh.attributes.iter().map(keep_values).collect(),
-        rounding: mesh.rounding,
+        for (v, &index) in renumbered.iter().enumerate().filter(|&(_, &index)| index != UNUSED) {
+            // Never to a place behind the one it comes from.
+            attribute.bytes.copy_within(v * stride..(v + 1) * stride, index as usize * stride);
+        }
+        let n_used = renumbered.iter().filter(|&&index| index != UNUSED).count();
+        attribute.bytes.truncate(n_used * stride);
     }
+    let mut indices = renumbered.iter();
+    mesh.positions.retain(|_| indices.next().is_some_and(|&index| index != UNUSED));
 }
 
 #[cfg(test)]
@@ -261,7 +263,7 @@ mod tests {
     #[test]
     fn a_clean_mesh_is_left_alone() {
         let clean = mesh(&CORNERS, &[[0, 1, 2], [2, 1, 3]]);
-        let repaired = repair(&clean);
+        let repaired = repair(clean.clone());
         assert_eq!(repaired, Repaired { mesh: clean, ..Repaired::default() });
     }
 
@@ -271,7 +273,7 @@ mod tests {
             &[CORNERS[0], CORNERS[1], CORNERS[2], [-0.0, 1.0, -0.0], CORNERS[1], CORNERS[3]],
             &[[0, 1, 2], [3, 4, 5]],
         );
-        let repaired = repair(&soup);
+        let repaired = repair(soup);
         assert_eq!(repaired.mesh, mesh(&CORNERS, &[[0, 1, 2], [2, 1, 3]]));
         assert_eq!(repaired.report, RepairReport { vertices_welded: 2, ..RepairReport::default() });
     }
@@ -285,7 +287,7 @@ mod tests {
             n_components: 1,
             bytes: vec![7, 7, 7, 9],
         });
-        let repaired = repair(&seam);
+        let repaired = repair(seam.clone());
         assert_eq!(repaired.mesh, seam);
         assert_eq!(repaired.points, Some(vec![0, 1, 2, 1]));
         assert_eq!(repaired.looks, Some(vec![0, 1, 2, 3]));
@@ -302,7 +304,7 @@ mod tests {
             n_components: 1,
             bytes,
         });
-        let repaired = repair(&flat);
+        let repaired = repair(flat.clone());
         assert_eq!(repaired.mesh, flat);
         assert_eq!((repaired.points, repaired.looks), (Some(vec![0, 1, 2, 1]), Some(vec![0, 1, 2, 1])));
     }
@@ -314,7 +316,7 @@ mod tests {
         positions.push([2.0, 0.0, 0.0]);
         let messy =
             mesh(&positions, &[[0, 1, 2], [1, 1, 2], [1, 2, 0], [2, 1, 0], [2, 1, 3], [0, 1, 5], [4, 4, 4]]);
-        let repaired = repair(&messy);
+        let repaired = repair(messy);
         assert_eq!(repaired.mesh.triangles, [[0, 1, 2], [2, 1, 0], [2, 1, 3], [0, 1, 4]]);
         let expected = RepairReport {
             vertices_unreferenced: 1,

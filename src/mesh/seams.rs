@@ -1,6 +1,6 @@
 //! Seams: where one point carries several vertices because their attributes differ.
 
-use super::Surface;
+use super::{Renumbering, Surface};
 
 /// The vertices at the corners of every slot, parallel to the points that [`Surface`] keeps there.
 ///
@@ -55,6 +55,11 @@ impl Seams {
             }
         }
         old
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        slots.close_up(&mut self.vertices);
     }
 
     /// Puts a triangle with these vertices into `slot`.

@@ -4,6 +4,8 @@
 //! lists share one pool: a list that outgrows its place moves to the pool's end, and [`Stars::compact`] closes the
 //! gaps that moves leave. Works for any triangles at all, manifold or not.
 
+use super::Renumbering;
+
 /// Lists of triangle slots, one per vertex.
 #[derive(Clone, Debug, Default)]
 pub struct Stars {
@@ -46,7 +48,10 @@ impl Stars {
             list.capacity += SPARE;
             start += list.capacity;
         }
-        let mut stars = Self { lists, pool: vec![0; start as usize] };
+        // Some lists move before the first tidying.
+        let mut pool = Vec::with_capacity(start as usize + start as usize / 8);
+        pool.resize(start as usize, 0);
+        let mut stars = Self { lists, pool };
         for (slot, triangle) in (0..).zip(triangles) {
             for &v in triangle {
                 stars.add(v, slot);
@@ -96,10 +101,10 @@ impl Stars {
 
     /// Closes gaps once they make up half of the pool. O(n) when it works, O(1) otherwise.
     pub fn compact(&mut self, n_triangles_alive: usize) {
-        if self.pool.len() < 12 * n_triangles_alive + 1024 {
+        if self.pool.len() < 6 * n_triangles_alive + 1024 {
             return;
         }
-        let mut pool = Vec::with_capacity(4 * n_triangles_alive);
+        let mut pool = Vec::with_capacity(self.lists.iter().map(|list| list.len as usize).sum());
         for list in &mut self.lists {
             let start = index(pool.len());
             pool.extend_from_slice(&self.pool[list.start as usize..][..list.len as usize]);
@@ -108,13 +113,27 @@ impl Stars {
         self.pool = pool;
     }
 
+    /// Gives every slot its new number.
+    pub fn renumber(&mut self, slots: &Renumbering) {
+        for list in &self.lists {
+            for slot in &mut self.pool[list.start as usize..][..list.len as usize] {
+                *slot = slots.place(*slot);
+            }
+        }
+    }
+
     fn move_to_end(&mut self, v: u32) {
         let list = &mut self.lists[v as usize];
         let start = self.pool.len();
+        let capacity = list.len + list.len / 2 + 2;
+        if self.pool.capacity() - start < capacity as usize {
+            // An eighth more: less than a `Vec` takes by itself.
+            self.pool.reserve_exact(capacity as usize + start / 8);
+        }
         self.pool.extend_from_within(list.start as usize..(list.start + list.len) as usize);
         list.start = index(start);
-        list.capacity = list.len + list.len / 2 + 2;
-        self.pool.resize(start + list.capacity as usize, 0);
+        list.capacity = capacity;
+        self.pool.resize(start + capacity as usize, 0);
     }
 }
 

@@ -1,15 +1,19 @@
 //! The mesh while it is being simplified.
 
-use super::Stars;
+use super::{Renumbering, Stars};
 use crate::geometry::vector::{Vector, widen};
 
 /// Corners of a slot whose triangle is gone.
 const GONE: [u32; 3] = [u32::MAX; 3];
 
+/// So few slots do not close up.
+const MIN_SLOTS: usize = 4096;
+
 /// Triangles in slots, with the star of every vertex.
 ///
 /// A slot holds one triangle at a time. A retriangulated hole has fewer triangles than the star it came from, so new
-/// triangles always find room in the slots of the old ones, and arrays that run parallel to the slots never grow.
+/// triangles always find room in the slots of the old ones, and arrays that run parallel to the slots never grow; they
+/// become shorter when slots [close up](Self::close_up).
 #[derive(Clone, Debug)]
 pub struct Surface {
     positions: Vec<[f32; 3]>,
@@ -45,6 +49,11 @@ impl Surface {
     /// Positions of all vertices, alive or not.
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
+    }
+
+    /// Gives up everything but the positions.
+    pub fn into_positions(self) -> Vec<[f32; 3]> {
+        self.positions
     }
 
     /// Position of vertex `v`.
@@ -130,5 +139,17 @@ impl Surface {
     /// Gives back memory that finished replacements left behind; cheap enough to call after every round.
     pub fn compact(&mut self) {
         self.stars.compact(self.n_triangles);
+    }
+
+    /// Closes the slots up where a quarter of them has become empty, and gives the new numbers for all that runs parallel to the slots
+    /// or names them. O(slots) when it works, O(1) otherwise.
+    pub fn close_up(&mut self) -> Option<Renumbering> {
+        if self.n_slots() < MIN_SLOTS || 4 * self.n_triangles > 3 * self.n_slots() {
+            return None;
+        }
+        let slots = Renumbering::new(self.triangles.iter().map(|&corners| corners != GONE));
+        slots.close_up(&mut self.triangles);
+        self.stars.renumber(&slots);
+        Some(slots)
     }
 }

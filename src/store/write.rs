@@ -149,9 +149,12 @@ fn lay_out<const CORNERS: usize>(
 
 /// Orders the triangles of a group for the vertex cache; leaves other simplices as they are.
 fn order_by_fans<const CORNERS: usize>(fans: &mut FanOrder, group: &mut [u32], pieces: &Pieces<'_, CORNERS>) {
-    let triangle = |&id: &u32| <[u32; 3]>::try_from(pieces.vertices(id).as_slice()).ok();
-    let Some(triangles) = group.iter().map(triangle).collect::<Option<Vec<_>>>() else { return };
-    let Some(order) = fans.order(&triangles) else { return };
+    let mut triangles = Vec::with_capacity(group.len());
+    for &id in &*group {
+        let Ok(triangle) = <[u32; 3]>::try_from(pieces.vertices(id).as_slice()) else { return };
+        triangles.push(triangle);
+    }
+    let Some(order) = fans.order_owned(triangles) else { return };
     let ids: Vec<u32> = order.into_iter().map(|place| group[place as usize]).collect();
     group.copy_from_slice(&ids);
 }

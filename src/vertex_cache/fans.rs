@@ -11,7 +11,7 @@ const NONE: u32 = u32::MAX;
 /// ago and will still be there when its own are drawn; where there is none, the last one that was drawn and has triangles
 /// left; and where there is none of these either, the first such in the order given. Linear in the triangles.
 ///
-/// Memory: 4 bytes per vertex of the mesh, kept between calls, and 40 bytes per triangle during one.
+/// Memory: 4 bytes per vertex of the mesh, kept between calls, and some 40 bytes per triangle during one.
 ///
 /// Reference: P. Sander, D. Nehab, J. Barczak: "Fast triangle reordering for vertex locality and reduced overdraw"
 /// (SIGGRAPH 2007), section 3, the algorithm called Tipsify.
@@ -39,18 +39,23 @@ impl FanOrder {
     /// assert_eq!(FanOrder::new(8).order(&triangles), None);
     /// ```
     pub fn order(&mut self, triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
+        self.order_owned(triangles.to_vec())
+    }
+
+    /// As [`Self::order`] for triangles that nobody needs any more.
+    pub fn order_owned(&mut self, mut triangles: Vec<[u32; 3]>) -> Option<Vec<u32>> {
         let corners = triangles.as_flattened();
         u32::try_from(corners.len()).ok()?;
         if corners.iter().any(|&vertex| vertex as usize >= self.place.len()) {
             return None;
         }
-        self.enter(triangles);
-        let drawing = Drawing::new(triangles, &self.place, self.vertices.len());
-        let order = drawing.run();
+        self.enter(&triangles);
+        triangles.as_flattened_mut().iter_mut().for_each(|vertex| *vertex = self.place[*vertex as usize]);
+        let n_vertices = self.vertices.len();
         for vertex in self.vertices.drain(..) {
             self.place[vertex as usize] = NONE;
         }
-        Some(order)
+        Some(Drawing::new(triangles, n_vertices).run())
     }
 
     /// Numbers the vertices in the order in which they appear.
@@ -78,14 +83,15 @@ struct Drawing {
     /// Misses so far, and at which each vertex came in.
     time: u32,
     came_in: Vec<u32>,
-    /// Vertices drawn, the latest last.
+    /// Vertices drawn, the latest last; those that have no triangles left may be missing.
     trail: Vec<u32>,
+    /// Length of the trail from which it is worth dropping those.
+    long_trail: usize,
     order: Vec<u32>,
 }
 
 impl Drawing {
-    fn new(triangles: &[[u32; 3]], place: &[u32], n_vertices: usize) -> Self {
-        let corners: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|v| place[v as usize])).collect();
+    fn new(corners: Vec<[u32; 3]>, n_vertices: usize) -> Self {
         let mut starts = vec![0; n_vertices + 1];
         for &vertex in corners.as_flattened() {
             starts[vertex as usize + 1] += 1;
@@ -105,8 +111,9 @@ impl Drawing {
         Self {
             is_drawn: vec![false; corners.len()],
             order: Vec::with_capacity(corners.len()),
-            trail: Vec::with_capacity(3 * corners.len()),
+            trail: Vec::new(),
             came_in: vec![0; n_vertices],
+            long_trail: n_vertices,
             time: CACHE_LEN + 1,
             corners,
             starts,
@@ -119,6 +126,9 @@ impl Drawing {
         let mut first_left = 0;
         let mut fan = self.next_left(&mut first_left);
         while let Some(vertex) = fan {
+            if self.trail.len() > self.long_trail {
+                self.shorten_trail();
+            }
             let trail_start = self.trail.len();
             self.draw_around(vertex);
             fan = self
@@ -145,6 +155,13 @@ impl Drawing {
                 }
             }
         }
+    }
+
+    /// Drops those without triangles left, whom nobody asks for. O(1) per vertex drawn, amortised.
+    fn shorten_trail(&mut self) {
+        let Self { trail, n_left, .. } = self;
+        trail.retain(|&vertex| n_left[vertex as usize] > 0);
+        self.long_trail = self.long_trail.max(2 * self.trail.len());
     }
 
     /// Of the vertices drawn last, the one that is in the cache for longest and will be until its triangles are drawn, each

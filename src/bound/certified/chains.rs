@@ -4,6 +4,7 @@
 //! need none: both ends belong to one triangle and so does all between. The others are written down here.
 
 use super::records::{HEADER, Records};
+use crate::mesh::Renumbering;
 
 /// A portion of a source edge.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -15,6 +16,9 @@ pub struct Portion {
     pub end: f32,
 }
 
+/// Words that the chains of a scanned mesh take at most, gaps included, for each edge of the input: 3.5 to 4.
+const USUAL_WORDS: usize = 4;
+
 /// Words that a portion takes.
 const WORDS: usize = 2;
 
@@ -25,7 +29,7 @@ pub struct Chains(Records);
 impl Chains {
     /// No chain, for any of `n_edges` edges.
     pub fn new(n_edges: usize) -> Self {
-        Self(Records::new(n_edges))
+        Self(Records::new(n_edges, USUAL_WORDS * n_edges))
     }
 
     /// Whether `edge` has a chain.
@@ -65,6 +69,15 @@ impl Chains {
         } else {
             self.0.set(edge, WORDS * portions.len(), bytemuck::cast_slice(portions).iter().copied());
         }
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        self.0.for_each_mut(|words| {
+            for portion in bytemuck::cast_slice_mut::<u32, Portion>(words) {
+                portion.slot = slots.place(portion.slot);
+            }
+        });
     }
 
     /// Gives back memory that former chains left behind. O(words) when it works, O(1) otherwise.

@@ -5,6 +5,10 @@
 //! edge may be listed in a slot that its chain has left since: whoever reads asks the chain.
 
 use super::records::{HEADER, Records};
+use crate::mesh::Renumbering;
+
+/// Words that the contents of a scanned mesh take at most, gaps included, for each triangle of the input: 3 to 3.5.
+const USUAL_WORDS: usize = 3;
 
 /// Source vertices in each slot, and source edges whose chain has a portion there: records of slots, which are the number of
 /// vertices, the vertices and the edges.
@@ -14,7 +18,7 @@ pub struct Contents(Records);
 impl Contents {
     /// Nothing, in any of `n_slots` slots.
     pub fn new(n_slots: usize) -> Self {
-        Self(Records::new(n_slots))
+        Self(Records::new(n_slots, USUAL_WORDS * n_slots))
     }
 
     /// Source vertices whose image is in the triangle in `slot`.
@@ -59,6 +63,11 @@ impl Contents {
             let words = std::iter::once(n_vertices as u32).chain(vertices).chain(edges);
             self.0.set(slot, 1 + n_vertices + n_edges, words);
         }
+    }
+
+    /// Gives every slot its new number.
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        self.0.renumber(slots);
     }
 
     /// Gives back memory that former contents left behind. O(words) when it works, O(1) otherwise.

@@ -32,7 +32,7 @@ mod transfer;
 use super::Replacement;
 use super::covered::Covered;
 use crate::geometry::vector::{length, max, min, widen};
-use crate::mesh::{Hole, Surface, TooMany, check_places};
+use crate::mesh::{Hole, Renumbering, Surface, TooMany, check_places};
 use chains::Chains;
 use contents::Contents;
 use removal::Removal;
@@ -160,6 +160,15 @@ impl Certified {
     pub fn compact(&mut self) {
         self.chains.compact();
         self.contents.compact();
+    }
+
+    /// Gives every slot its new number. O(words of the proof).
+    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+        self.chains.renumber_slots(slots);
+        self.contents.renumber_slots(slots);
+        for slot in self.slot_of.iter_mut().filter(|slot| **slot != NONE) {
+            *slot = slots.place(*slot);
+        }
     }
 
     /// Source vertices whose image lies in the star of `hole`, in lists: the removed one first.

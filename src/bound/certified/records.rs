@@ -4,6 +4,8 @@
 //! was a third of the build. Here a record that changes is written anew behind the others, and [`Records::compact`] closes the
 //! gaps where they are, without a second pool. What changed together then lies together.
 
+use crate::mesh::Renumbering;
+
 /// No record, or a record without an owner.
 const NONE: u32 = u32::MAX;
 
@@ -12,7 +14,7 @@ pub(super) const HEADER: usize = 2;
 
 /// At most one record of words for each of so many owners.
 ///
-/// Memory: 4 bytes per owner and word, 8 per record, and half as much again in gaps and room to grow at most.
+/// Memory: 4 bytes per owner and word, 8 per record, and a third as much again in gaps at most.
 #[derive(Clone, Debug)]
 pub(super) struct Records {
     /// Where the record of each owner starts in `words`.
@@ -21,12 +23,15 @@ pub(super) struct Records {
     words: Vec<u32>,
     /// Words of the records with an owner, and of their headers.
     n_used: usize,
+    /// Most words since memory was last given back.
+    n_touched: usize,
 }
 
 impl Records {
-    /// No record, for any of `n_owners` owners.
-    pub(super) fn new(n_owners: usize) -> Self {
-        Self { first: vec![NONE; n_owners], words: vec![], n_used: 0 }
+    /// No record, for any of `n_owners` owners, and room for `n_words`: memory that is not touched before it is needed, and that a pool
+    /// which grew as it goes would leave behind in pieces.
+    pub(super) fn new(n_owners: usize, n_words: usize) -> Self {
+        Self { first: vec![NONE; n_owners], words: Vec::with_capacity(n_words), n_used: 0, n_touched: 0 }
     }
 
     /// Whether `owner` has a record.
@@ -76,12 +81,13 @@ impl Records {
         self.n_used += HEADER + n_words;
     }
 
-    /// Closes the gaps once they make up a third of the pool; the records keep their order. O(words) when it works, O(1) otherwise.
+    /// Closes the gaps once they make up a fifth of the pool; the records keep their order. O(words) when it works, O(1) otherwise.
     #[expect(clippy::cast_possible_truncation, reason = "not more than before")]
     pub(super) fn compact(&mut self) {
-        if self.words.len() < self.n_used + self.n_used / 2 + 1024 {
+        if self.words.len() < self.n_used + self.n_used / 4 + 1024 {
             return;
         }
+        self.n_touched = self.n_touched.max(self.words.len());
         let (mut from, mut to) = (0, 0);
         while let Some(&[owner, n_words, ..]) = self.words.get(from..) {
             let n_words = HEADER + n_words as usize;
@@ -93,12 +99,40 @@ impl Records {
             from += n_words;
         }
         self.words.truncate(to);
+        if self.n_touched > 2 * to {
+            self.words.shrink_to(to + to / 4 + 1024);
+            self.n_touched = to;
+        }
     }
 
-    /// Room for a quarter more where there is too little: less than a `Vec` takes by itself.
+    /// Gives every owner its new number.
+    pub(super) fn renumber(&mut self, owners: &Renumbering) {
+        owners.close_up(&mut self.first);
+        let mut at = 0;
+        while let Some([owner, n_words, ..]) = self.words.get_mut(at..) {
+            if *owner != NONE {
+                *owner = owners.place(*owner);
+            }
+            at += HEADER + *n_words as usize;
+        }
+    }
+
+    /// Shows `take` every record.
+    pub(super) fn for_each_mut(&mut self, mut take: impl FnMut(&mut [u32])) {
+        let mut rest = self.words.as_mut_slice();
+        while let [owner, n_words, behind @ ..] = rest {
+            let (record, behind) = behind.split_at_mut(*n_words as usize);
+            if *owner != NONE {
+                take(record);
+            }
+            rest = behind;
+        }
+    }
+
+    /// Room for a sixteenth more where there is too little: less than a `Vec` takes by itself.
     fn make_room(&mut self, n_words: usize) {
         if self.words.capacity() - self.words.len() < n_words {
-            self.words.reserve_exact(n_words + self.words.len() / 4);
+            self.words.reserve_exact(n_words + self.words.len() / 16);
         }
     }
 }
@@ -114,7 +148,7 @@ mod tests {
         fn records_agree_with_a_map(
             settings in prop::collection::vec((0_u32..8, prop::collection::vec(any::<u32>(), 0..300)), 0..60)
         ) {
-            let mut records = Records::new(8);
+            let mut records = Records::new(8, 0);
             let mut map: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
             for (at, (owner, words)) in settings.into_iter().enumerate() {
                 let before = records.version(owner);
@@ -128,7 +162,7 @@ mod tests {
                 if at % 4 == 3 {
                     records.compact();
                     let n_used: usize = map.values().filter(|words| !words.is_empty()).map(|words| words.len() + HEADER).sum();
-                    prop_assert!(records.n_words() < n_used + n_used / 2 + 1024);
+                    prop_assert!(records.n_words() < n_used + n_used / 4 + 1024);
                 }
             }
             for (&owner, words) in &map {

@@ -42,7 +42,7 @@ impl Removal<'_> {
     }
 
     /// Shows `take` the source edges without a chain that are to get one, given where the vertices go, each once, until it breaks.
-    /// Both ends are corners of the star or mapped into it: each is met at its lower end, or at the only one that is mapped.
+    /// Both ends are corners of the star or mapped into it: each is met at its lower end.
     #[inline]
     pub(super) fn try_each_split_edge(
         &self,
@@ -61,8 +61,11 @@ impl Removal<'_> {
                     take(edge)?;
                 }
             }
-            for (edge, other) in source.down(v) {
-                if labels.get(other).is_none() && !self.has_corner(label, other) && !chains.has(edge) {
+        }
+        for &v in &self.replacement.hole.ring {
+            for (edge, other) in source.up(v) {
+                let is_split = labels.get(other).is_some_and(|label| !self.has_corner(label, v));
+                if is_split && !chains.has(edge) {
                     take(edge)?;
                 }
             }

@@ -19,9 +19,6 @@ const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 /// [`State::fine_error`] in parts of the bounding box diagonal.
 const FINE_ERROR: f64 = 0.0005;
 
-/// Tetrahedra that ever live in a run to its end, for each of the input: 5 to 7.
-const USUAL_LIVES: usize = 7;
-
 /// The mesh in the middle of its fusion.
 pub(super) struct State {
     pub mesh: Tetrahedra,
@@ -76,8 +73,7 @@ impl State {
         let fields = Fields::new(&mesh.attributes, mesh.positions.len(), field_range);
         let (n_scaled, scaled) = fields.scaled();
         let metric = Metric::new(&tetrahedra, midpoint(low, high), n_scaled, &scaled);
-        let mut recorder = Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding);
-        recorder.reserve(USUAL_LIVES * mesh.tetrahedra.len());
+        let recorder = Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding);
         let six_volumes: f64 = mesh.tetrahedra.iter().map(|&t| mesh.six_volumes(t)).sum();
         Self {
             creases: Creases::new(&tetrahedra, cos_feature_angle),
@@ -156,7 +152,7 @@ impl State {
 
     /// The mesh and its history; `by_tetrahedra` are the fusions of tetrahedra and the tetrahedra they left.
     pub(super) fn finish(self, input: &TetrahedronMesh, by_tetrahedra: [usize; 2]) -> Fused {
-        let mut history = self.recorder.finish(self.mesh.iter());
+        let mut history = self.recorder.finish(&self.mesh.iter().collect::<Vec<_>>());
         let names = std::iter::once("planar quadric").chain(self.fields.names()).map(str::to_owned);
         let values = std::iter::once(self.quadric_distances).chain(self.field_deviations);
         history.deviations = names.zip(values).map(|(name, values)| Deviation { name, values }).collect();

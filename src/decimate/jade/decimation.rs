@@ -43,13 +43,51 @@ impl Decimation {
         }
     }
 
-    /// The history, with what is still alive, and the vertices that moved.
-    pub fn finish(self) -> (History, Option<Moves>) {
-        let Self { surface, seams, names, recorder, moves, .. } = self;
-        let alive = surface.iter().map(|(slot, _)| slot);
-        let named = alive.map(|slot| (slot, named_corners(&surface, seams.as_ref(), &names, slot)));
-        (recorder.finish(named), moves)
+    /// Gives back memory that finished removals left behind; cheap enough to call after every round.
+    pub(super) fn compact(&mut self) {
+        let Self { surface, seams, error, recorder, .. } = self;
+        surface.compact();
+        let Some(slots) = surface.close_up() else { return };
+        if let Some(seams) = seams {
+            seams.renumber_slots(&slots);
+        }
+        error.renumber_slots(&slots);
+        recorder.renumber_slots(&slots);
     }
+
+    /// The history, with what is still alive. Everything else is let go before it is laid out.
+    pub fn finish(self) -> Finished {
+        let Self { surface, seams, names, error, recorder, moves, workers, .. } = self;
+        drop((error, workers));
+        let alive: Vec<(u32, [u32; 3])> = surface
+            .iter()
+            .map(|(slot, _)| (slot, named_corners(&surface, seams.as_ref(), &names, slot)))
+            .collect();
+        drop(seams);
+        let positions = surface.into_positions();
+        let positions = moves.is_none().then(|| by_name(&names, &positions));
+        drop(names);
+        Finished { history: recorder.finish(&alive), moves, positions }
+    }
+}
+
+/// What a decimation leaves.
+pub struct Finished {
+    /// Every triangle that ever lived.
+    pub history: History,
+    /// Vertices that moved.
+    pub moves: Option<Moves>,
+    /// Positions of the vertices by their names in the history, if none could move.
+    pub positions: Option<Vec<[f32; 3]>>,
+}
+
+/// Puts each position where its name says; names are those of the positions in another order.
+fn by_name(names: &[u32], positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let mut named = vec![[0.0; 3]; positions.len()];
+    for (&name, &position) in names.iter().zip(positions) {
+        named[name as usize] = position;
+    }
+    named
 }
 
 /// The vertices of the history at the corners of the triangle in `slot`.

@@ -247,7 +247,7 @@ fn remove_all(
             candidates.set_verdict(v, verdict, decimation.c2);
         }
     }
-    decimation.surface.compact();
+    decimation.compact();
     Ok(touched)
 }
 

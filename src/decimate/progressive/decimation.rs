@@ -165,7 +165,8 @@ impl Decimation {
             complex, journal: Journal { recorder, trace, .. }, wedges, events, n_proven, counts, ..
         } = self;
         let vertices = |slot: u32, corners| wedges.as_ref().map_or(corners, |wedges| wedges.corners(slot));
-        let history = recorder.finish(complex.iter().map(|(slot, corners)| (slot, vertices(slot, corners))));
+        let alive: Vec<_> = complex.iter().map(|(slot, corners)| (slot, vertices(slot, corners))).collect();
+        let history = recorder.finish(&alive);
         (history, Passage { trace, events, counts, n_certified_steps: n_proven })
     }
 

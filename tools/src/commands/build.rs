@@ -248,39 +248,52 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         }
         let (mesh, read) = files::read_mesh(&arguments.mesh)?;
         interrupt::check()?;
-        let bounding_diagonal = nephrite::bounding_diagonal(&mesh);
-        let build = decimate(arguments, &mesh, bounding_diagonal)?;
+        let input = Input::of(&mesh);
+        let build = decimate(arguments, mesh, input.bounding_diagonal)?;
         interrupt::check()?;
-        let stored = write(arguments, &mesh, &build, bounding_diagonal)?;
-        let outcome =
-            Outcome { mesh, read, build, stored, bounding_diagonal, seconds: start.elapsed().as_secs_f64() };
+        let stored = write(arguments, input, &build)?;
+        let outcome = Outcome { input, read, build, stored, seconds: start.elapsed().as_secs_f64() };
         Ok(Report { text: outcome.text(arguments), json: outcome.json() })
     })?
 }
 
+/// What is told of a mesh that the build uses up.
+#[derive(Clone, Copy)]
+pub(super) struct Input {
+    pub(super) n_triangles: usize,
+    pub(super) n_vertices: usize,
+    /// In mesh units.
+    pub(super) bounding_diagonal: f64,
+}
+
+impl Input {
+    pub(super) fn of(mesh: &TriangleMesh) -> Self {
+        Self {
+            n_triangles: mesh.triangles.len(),
+            n_vertices: mesh.positions.len(),
+            bounding_diagonal: nephrite::bounding_diagonal(mesh),
+        }
+    }
+}
+
 /// Runs the decimator under a progress bar.
-fn decimate(arguments: &Arguments, mesh: &TriangleMesh, bounding_diagonal: f64) -> Result<Build, Failure> {
-    store::check_attributes(mesh).map_err(|source| Failure::file(&arguments.mesh, source))?;
+fn decimate(arguments: &Arguments, mesh: TriangleMesh, bounding_diagonal: f64) -> Result<Build, Failure> {
+    store::check_attributes(&mesh).map_err(|source| Failure::file(&arguments.mesh, source))?;
     let bar = BuildBar::new(bounding_diagonal);
     let options = arguments.options(bounding_diagonal);
-    nephrite::build(mesh, &options, &|progress| bar.observe(progress))
+    nephrite::build_from(mesh, &options, &|progress| bar.observe(progress))
         .map_err(|source| Failure::build(&arguments.mesh, source))
 }
 
 /// Publishes the file, with all that a reader may want to know of its making.
-pub(super) fn write(
-    arguments: &Arguments,
-    mesh: &TriangleMesh,
-    build: &Build,
-    bounding_diagonal: f64,
-) -> Result<StoreReport, Failure> {
-    let options = arguments.options(bounding_diagonal);
+pub(super) fn write(arguments: &Arguments, input: Input, build: &Build) -> Result<StoreReport, Failure> {
+    let options = arguments.options(input.bounding_diagonal);
     let provenance = Provenance {
         method: name(&options.method),
         bound: name(&options.bound),
         max_error: options.max_error,
-        n_vertices_in: mesh.positions.len() as u64,
-        n_simplices_in: mesh.triangles.len() as u64,
+        n_vertices_in: input.n_vertices as u64,
+        n_simplices_in: input.n_triangles as u64,
         options: json!(options),
         repairs: json!(build.repairs),
         certified_simplices: build.n_certified_triangles().map(|n| n as u64),
@@ -304,24 +317,23 @@ fn name(choice: &impl serde::Serialize) -> String {
 
 /// A build that is done.
 struct Outcome {
-    mesh: TriangleMesh,
+    input: Input,
     read: ReadReport,
     build: Build,
     stored: StoreReport,
-    bounding_diagonal: f64,
     seconds: f64,
 }
 
 impl Outcome {
     fn json(&self) -> Value {
         json!({
-            "triangles_in": self.mesh.triangles.len(),
-            "vertices_in": self.mesh.positions.len(),
+            "triangles_in": self.input.n_triangles,
+            "vertices_in": self.input.n_vertices,
             "triangles_stored": self.stored.n_lifetimes,
             "levels": self.stored.n_levels,
             "coarsest_triangles": self.stored.n_coarsest,
             "max_error": self.stored.max_error,
-            "bounding_diagonal": self.bounding_diagonal,
+            "bounding_diagonal": self.input.bounding_diagonal,
             "seconds": self.seconds,
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
@@ -332,19 +344,19 @@ impl Outcome {
     }
 
     fn text(&self, arguments: &Arguments) -> String {
-        let Self { mesh, stored, .. } = self;
+        let Self { input, stored, .. } = self;
         let size = |triangles: usize, vertices: usize| {
             format!("{} triangles, {} vertices", figures::count(triangles), figures::count(vertices))
         };
         let list = figures::list(&[
-            ("mesh", size(mesh.triangles.len(), mesh.positions.len())),
+            ("mesh", size(input.n_triangles, input.n_vertices)),
             ("read", figures::tally(&json!(self.read))),
             ("repaired", figures::tally(&json!(self.build.repairs))),
             (
                 "levels",
                 format!("{}, down to {} triangles", stored.n_levels, figures::count(stored.n_coarsest)),
             ),
-            ("error", format!("up to {}", figures::error(stored.max_error, self.bounding_diagonal))),
+            ("error", format!("up to {}", figures::error(stored.max_error, input.bounding_diagonal))),
             (
                 "stored",
                 format!(

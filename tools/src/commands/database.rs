@@ -19,7 +19,7 @@ use nephrite_formats::{MeshFormat, VolumeFormat, neph, read_input};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::build::{Arguments, write};
+use super::build::{Arguments, Input, write};
 use super::manifest::{Facts, Line, Manifest};
 use crate::failure::Failure;
 use crate::report::{self, Report};
@@ -173,17 +173,17 @@ fn build_one(arguments: &Arguments, bytes: Vec<u8>) -> Result<Value, Failure> {
     let start = Instant::now();
     let mesh = read_part(arguments.mesh(), bytes)?;
     check_attributes(&mesh).map_err(|source| Failure::file(arguments.mesh(), source))?;
-    let diagonal = nephrite::bounding_diagonal(&mesh);
+    let input = Input::of(&mesh);
     let go_on = |_: &nephrite::Progress| {
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let (options, n_in) = (arguments.options(diagonal), [mesh.triangles.len(), mesh.positions.len()]);
-    let build = nephrite::build(&mesh, &options, &go_on)
+    let options = arguments.options(input.bounding_diagonal);
+    let build = nephrite::build_from(mesh, &options, &go_on)
         .map_err(|source| Failure::build(arguments.mesh(), source))?;
-    let stored = write(arguments, &mesh, &build, diagonal)?;
+    let stored = write(arguments, input, &build)?;
     Ok(json!({
-        "triangles_in": n_in[0],
-        "vertices_in": n_in[1],
+        "triangles_in": input.n_triangles,
+        "vertices_in": input.n_vertices,
         "levels": stored.n_levels,
         "coarsest_triangles": stored.n_coarsest,
         "file_bytes": stored.file_bytes,
