@@ -1,23 +1,16 @@
 //! The input vertices that a hole's filling will stand for.
 
-use crate::geometry::vector::Vector;
-use crate::mesh::Surface;
-
 /// Source vertices over a hole.
 #[derive(Clone, Debug, Default)]
 pub struct Covered {
     /// The vertices, in no particular order.
     pub vertices: Vec<u32>,
-    /// Their positions in the input.
-    pub points: Vec<Vector>,
 }
 
 impl Covered {
     /// Takes the source vertices of the given lists. O(vertices).
-    pub fn gather<'a>(&mut self, surface: &Surface, lists: impl Iterator<Item = &'a [u32]>) {
+    pub fn gather<'a>(&mut self, lists: impl Iterator<Item = &'a [u32]>) {
         self.vertices.clear();
         lists.for_each(|list| self.vertices.extend_from_slice(list));
-        self.points.clear();
-        self.points.extend(self.vertices.iter().map(|&v| surface.origin(v)));
     }
 }

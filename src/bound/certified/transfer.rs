@@ -131,7 +131,8 @@ impl Transfer {
         labels.start(surface.n_vertices());
         self.location.build(hole, filling);
         let mut largest_sq = 0.0_f64;
-        for (&v, &p) in covered.vertices.iter().zip(&covered.points) {
+        for &v in &covered.vertices {
+            let p = surface.origin(v);
             let (label, distance_sq) = match removal.rim_edge(v) {
                 Some(i) => (tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
                 None => removal.near(p, self.location.find(p), limit_sq.max(largest_sq)),

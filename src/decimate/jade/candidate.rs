@@ -112,6 +112,6 @@ fn fill_best(
         None if !triangulate(surface, hole, class, polygons, filling) => return Err(Verdict::Impossible),
         _ => {}
     }
-    covered.gather(surface, certified.vertices_in(hole));
+    covered.gather(certified.vertices_in(hole));
     Ok(())
 }

@@ -47,7 +47,7 @@ impl Proof {
         if filling.triangles.len() + 2 != hole.n_ring() || filling.triangles.is_empty() {
             return None;
         }
-        covered.gather(surface, certified.vertices_in(hole));
+        covered.gather(certified.vertices_in(hole));
         Some(certified.bound(Replacement { surface, hole, filling }, covered, limit, transfer))
     }
 
