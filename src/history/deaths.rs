@@ -4,8 +4,8 @@
 //! they take 20 bytes each, and would be the most of what a build keeps in memory. But those that die together share corners, births
 //! and the step: written as differences from the one before, a triangle takes 6 to 8 bytes.
 
-/// Bytes of a chunk. Chunks neither move while they fill nor stay when they have been read.
-const CHUNK_BYTES: usize = 1 << 16;
+/// Bytes of a chunk. Chunks neither move while they fill nor stay when they have been read: allocators map blocks of this size.
+const CHUNK_BYTES: usize = 1 << 17;
 
 /// Most bytes of a record: corner codes, corners, birth and step.
 const MAX_RECORD_BYTES: usize = 1 + 4 * 5 + 6 + 5;
@@ -211,15 +211,15 @@ mod tests {
 
     #[test]
     fn chunks_follow_one_another_and_neighbours_take_few_bytes() {
-        let fans = (0..20_000_u32)
+        let fans = (0..40_000_u32)
             .map(|at| ([at / 6, at % 6 + 1000, (at + 1) % 6 + 1000], at / 7, u32::from(at % 6 == 0)));
         let mut deaths = Deaths::new();
-        let mut death = 20_000;
+        let mut death = 40_000;
         for (simplex, birth, n_steps) in fans.clone() {
             death += n_steps;
             deaths.push(Record { simplex, birth, death });
         }
-        assert!(deaths.chunks.len() > 1 && deaths.chunks.iter().map(Vec::len).sum::<usize>() < 8 * 20_000);
+        assert!(deaths.chunks.len() > 1 && deaths.chunks.iter().map(Vec::len).sum::<usize>() < 8 * 40_000);
         check(fans.collect());
     }
 }

@@ -3,6 +3,7 @@
 //! Results go to stdout, progress and notes to stderr. Exit status 0 is done, 1 a failure told in one line, 2 wrong
 //! usage, 130 an interrupt.
 
+mod allocator;
 mod arguments;
 mod commands;
 mod curve;
@@ -31,6 +32,7 @@ use crate::arguments::Arguments;
 use crate::failure::Failure;
 
 fn main() -> ExitCode {
+    allocator::return_large_blocks();
     let arguments = Arguments::parse();
     let printed = arguments.command.run(arguments.form()).and_then(|report| {
         report.print(arguments.form()).map_err(|source| Failure::system("standard output", source))
