@@ -63,3 +63,26 @@ fn of_a_star_of_three_hundred_thousand_triangles() {
         }
     }
 }
+
+#[test]
+fn of_the_largest_coordinates() {
+    const N_VERTICES: u32 = 12;
+    let mut random = 1_u32;
+    let mut next = |below: u32| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (random >> 8) % below
+    };
+    let ways = [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated]
+        .map(|bound| BuildOptions { bound, ..BuildOptions::default() });
+    for i in 0..400 {
+        let mesh = TriangleMesh {
+            positions: (0..N_VERTICES)
+                .map(|_| [(); 3].map(|()| (next(256) as f32 - 128.0) * 2.5e36))
+                .collect(),
+            triangles: (0..20).map(|_| [(); 3].map(|()| next(N_VERTICES))).collect(),
+            ..TriangleMesh::default()
+        };
+        let _watchdog = Watchdog::over(format_args!("soup {i} of the largest coordinates"));
+        ways.iter().for_each(|options| _ = build(&mesh, options, &|_| Continue(())).unwrap());
+    }
+}

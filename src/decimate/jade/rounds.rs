@@ -119,7 +119,7 @@ impl Candidates {
     fn admit(&mut self, limits: Limits, surface: &Surface) {
         self.open.retain(|&v| !surface.star(v).is_empty());
         let needed = &self.needed;
-        let is_below = |v: &u32| f64::from(needed[*v as usize]) <= limits.local;
+        let is_below = |v: &u32| is_admitted(needed[*v as usize], limits);
         self.waiting = self.open.iter().copied().filter(is_below).collect();
     }
 
@@ -171,7 +171,7 @@ impl Candidates {
     /// above it wait, or are left to a later iteration.
     fn sort_out(&mut self, limits: Limits, ceiling: f64, mut vertices: Vec<u32>) -> Vec<u32> {
         let Self { needed, found, waiting, .. } = self;
-        vertices.retain(|&v| f64::from(needed[v as usize]) <= limits.local);
+        vertices.retain(|&v| is_admitted(needed[v as usize], limits));
         waiting.extend(vertices.extract_if(.., |v| f64::from(found[*v as usize]) > ceiling));
         vertices
             .par_sort_unstable_by(|&a, &b| found[a as usize].total_cmp(&found[b as usize]).then(a.cmp(&b)));
@@ -197,7 +197,12 @@ impl Candidates {
     fn set_verdict(&mut self, v: u32, verdict: Verdict, c2: f64) {
         let (needed, found) = match verdict {
             Verdict::Above(errors) => {
-                (round_up(errors.local.max(errors.global / c2)), round_up(errors.global))
+                let found = round_up(errors.global);
+                // What is beyond `f32` is beyond every limit.
+                let is_known = found.is_finite();
+                let needed =
+                    if is_known { round_up(errors.local.max(errors.global / c2)) } else { f32::INFINITY };
+                (needed, if is_known { found } else { 0.0 })
             }
             Verdict::Impossible => (f32::INFINITY, 0.0),
         };
@@ -209,6 +214,11 @@ impl Candidates {
         self.needed[v as usize] = 0.0;
         self.found[v as usize] = 0.0;
     }
+}
+
+/// Whether what a vertex needs is within the limits: what is impossible is not, even where they have no end.
+fn is_admitted(needed: f32, limits: Limits) -> bool {
+    needed.is_finite() && f64::from(needed) <= limits.local
 }
 
 /// Removes those of the picked vertices that are within the limits, one step each, and returns the vertices whose stars changed;
