@@ -8,7 +8,10 @@ use nephrite::generate::{ball_volume, box_volume};
 use nephrite::measure::{Verdict, check_within, measure_fields};
 use nephrite::reprove::{ErrorTable, ReproveError};
 use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{Lod, TetrahedronMesh, TriangleMesh, VolumeBuild, VolumeOptions, build_volume, volume};
+use nephrite::{
+    Attribute, Lod, ScalarType, TetrahedronMesh, TriangleMesh, VolumeBuild, VolumeOptions, build_volume,
+    volume,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
@@ -180,4 +183,13 @@ fn the_boundary_s_errors_are_proven_anew() {
         table.prove(level).unwrap();
     }
     assert!(matches!(ErrorTable::new(&lod("estimate")), Err(ReproveError::NotCertified { .. })));
+}
+
+#[test]
+fn fields_of_the_largest_values_are_written() {
+    let mut mesh = box_volume([4; 3]);
+    let values = (0..mesh.positions.len()).map(|v| if v % 2 == 0 { f64::MAX } else { -f64::MAX });
+    mesh.attributes = vec![Attribute::from_values("f", ScalarType::F64, 1, values)];
+    let (build, lod) = built(&mesh, &VolumeOptions::default());
+    assert!(build.n_fusions > 0 && lod.n_levels() > 1);
 }

@@ -103,7 +103,8 @@ impl State {
 
     /// A fusion that leaves the boundary as it is.
     fn try_at(&mut self, prey: &Prey, point: [f32; 3]) -> Option<Accepted> {
-        if !self.neighbourhood.gather(&self.mesh, prey, Some(point.map(f64::from))) {
+        let is_gathered = self.neighbourhood.gather(&self.mesh, prey, Some(point.map(f64::from)));
+        if !is_gathered || self.leaves_nothing() {
             return None;
         }
         let error = self.error_before();
@@ -114,7 +115,7 @@ impl State {
     fn try_boundary(&mut self, prey: &Prey, members: &[u32]) -> Option<Accepted> {
         let anchor = self.creases.anchor(members)?;
         self.neighbourhood.gather(&self.mesh, prey, None);
-        if !self.patch.fill(&self.mesh, &self.neighbourhood, members) {
+        if self.leaves_nothing() || !self.patch.fill(&self.mesh, &self.neighbourhood, members) {
             return None;
         }
         let quadric = self.metric.of(prey.vertices());
@@ -158,6 +159,11 @@ impl State {
             }
         }
         best
+    }
+
+    /// Whether a whole component would go, as one can that has no volume. Components stay.
+    fn leaves_nothing(&self) -> bool {
+        self.neighbourhood.affected.is_empty()
     }
 
     /// Bound on the distance between the input's boundary and the faces that a fusion would touch. Vertices are numbered as they

@@ -186,7 +186,9 @@ impl Fields {
                 let here = &self.scratch[first..][..shape.n_components];
                 first += shape.n_components;
                 let difference_sq: f64 = there.iter().zip(here).map(|(a, b)| (a - b) * (a - b)).sum();
-                let deviation = self.deviations[v as usize * n_fields + field] + difference_sq.sqrt();
+                // Values may be so far apart that no number tells how far.
+                let deviation =
+                    (self.deviations[v as usize * n_fields + field] + difference_sq.sqrt()).min(f64::MAX);
                 let own = &mut self.deviations[start + field];
                 *own = own.max(deviation);
                 self.worst[field] = self.worst[field].max(deviation);
