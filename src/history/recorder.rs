@@ -4,6 +4,9 @@ use super::deaths::{Deaths, Record};
 use super::{History, NEVER};
 use crate::mesh::Renumbering;
 
+/// Farther than any two points with `f32` coordinates are apart.
+const FARTHEST: f64 = 4.0 * f32::MAX as f64;
+
 /// Turns the comings and goings of simplices in slots into lifetimes.
 ///
 /// Memory: 4 bytes per slot, some 7 for each triangle that has died, and 16 whenever the error rises.
@@ -32,9 +35,11 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         }
     }
 
-    /// Starts the next step. Its error is `error`, or that of the step before if that is larger.
+    /// Starts the next step. Its error is `error`, or that of the step before if that is larger; estimates that add up to more than any
+    /// distance is, or to no number, are that distance.
     pub fn step(&mut self, error: f64) {
         self.now += 1;
+        let error = error.min(FARTHEST);
         if error > self.error() {
             self.rises.push((self.now, error));
         }
