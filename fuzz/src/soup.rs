@@ -1,9 +1,17 @@
 //! Triangles of any kind made into a file, and histories of any kind.
 
 use crate::script::Script;
+use nephrite::decimate::fusion::FusionOptions;
+use nephrite::decimate::jade::{JadeOptions, Placement};
+use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::history::{History, NEVER};
+use nephrite::progressive_mesh::{ProgressiveMesh, encode};
+use nephrite::store::Vertices;
 use nephrite::store::{Provenance, StoreOptions, WriteError, write_to};
-use nephrite::{Attribute, Bound, BuildError, BuildOptions, Lod, ScalarType, TriangleMesh};
+use nephrite::{
+    Attribute, Bound, BuildError, BuildOptions, Lod, Method, ScalarType, TetrahedronMesh, TriangleMesh,
+    VolumeOptions, build_volume,
+};
 use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
 
@@ -26,35 +34,115 @@ pub(crate) fn build_soup(script: &[u8]) {
         feature_angle_degrees: [60.0, 0.0, 180.0][script.below(3)],
         ..BuildOptions::default()
     };
-    let mesh = soup(&mut script);
-    let build = match nephrite::build(&mesh, &options, &|_| Continue(())) {
+    build_any(&soup(&mut script), &options);
+}
+
+/// As [`build_soup`], in the other ways: by collapses and splits, and with vertices that move; up to the largest coordinates there are. What
+/// is played from a stream of operations ends as the input.
+///
+/// # Panics
+///
+/// As [`build_soup`].
+pub(crate) fn build_soup_otherwise(script: &[u8]) {
+    let mut script = Script::new(script);
+    let by_collapses = |bound, pre_split, reduction| BuildOptions {
+        method: Method::Progressive,
+        bound,
+        progressive: ProgressiveOptions { pre_split, reduction },
+        ..BuildOptions::default()
+    };
+    let mut options = match script.below(4) {
+        0 => by_collapses(Bound::Certified, false, None),
+        1 => by_collapses(Bound::Accumulated, true, None),
+        2 => by_collapses(Bound::Certified, script.u8() % 2 == 1, Some(0.5)),
+        _ => BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..BuildOptions::default() },
+    };
+    options.max_error = [None, Some(0.1), Some(5.0)][script.below(3)];
+    build_any(&soup(&mut script), &options);
+}
+
+fn build_any(mesh: &TriangleMesh, options: &BuildOptions) {
+    let build = match nephrite::build(mesh, options, &|_| Continue(())) {
         Ok(build) => build,
         Err(BuildError::NoTriangles { .. }) => return,
         Err(error) => panic!("{error}"),
     };
     let bytes = written(&build.mesh, &build.history).unwrap();
     check_file(&bytes, build.mesh.triangles.len());
+    if build.passage.is_some() {
+        let mut played = ProgressiveMesh::new();
+        played.append(&encode(&build).unwrap().bytes).unwrap();
+        played.refine(usize::MAX);
+        assert_eq!(played.triangles().len(), build.mesh.triangles.len());
+    }
+}
+
+/// Fuses tetrahedra that know nothing of volumes, writes them, and opens, verifies and uses the file.
+///
+/// The script: options, scale and vertices as of [`build_soup`], tetrahedra until it ends.
+///
+/// # Panics
+///
+/// When the build fails for another reason than that nothing is left of the tetrahedra, or its file does not verify.
+pub(crate) fn fuse_soup(script: &[u8]) {
+    let mut script = Script::new(script);
+    let options = VolumeOptions {
+        max_error: [None, Some(0.1), Some(5.0)][script.below(3)],
+        fusion: FusionOptions {
+            tetrahedron_share: [0.1, 1.0, 0.0][script.below(3)],
+            volume_loss: [0.001, 1.0, 0.0][script.below(3)],
+            ..FusionOptions::default()
+        },
+        ..VolumeOptions::default()
+    };
+    let (positions, attributes) = vertices(&mut script);
+    let n_vertices = small(positions.len());
+    let mut tetrahedra = Vec::new();
+    while !script.is_empty() && tetrahedra.len() < 2 * MAX_TRIANGLES {
+        tetrahedra.push(std::array::from_fn(|_| u32::from(script.u8() % n_vertices)));
+    }
+    let mesh = TetrahedronMesh { positions, attributes, tetrahedra, ..TetrahedronMesh::default() };
+    let build = match build_volume(&mesh, &options, &|_| Continue(())) {
+        Ok(build) => build,
+        Err(BuildError::NoTetrahedra { .. }) => return,
+        Err(error) => panic!("{error}"),
+    };
+    let bytes = written(&build.mesh, &build.history).unwrap();
+    let lod = Lod::from_bytes(&bytes).unwrap();
+    lod.verify().unwrap();
+    let mut before = usize::MAX;
+    for level in 0..lod.n_levels() {
+        let mesh = lod.at_level(level).to_volume().unwrap();
+        mesh.check().unwrap();
+        assert!(mesh.tetrahedra.len() <= before);
+        before = mesh.tetrahedra.len();
+    }
 }
 
 fn soup(script: &mut Script<'_>) -> TriangleMesh {
-    let scale = [1.0, 1e-30, 1e-40, 1e30, 1e-3][script.below(5)];
-    let has_attribute = script.u8().is_multiple_of(4);
-    let n_vertices = 3 + script.below(MAX_VERTICES - 2);
-    let positions: Vec<[f32; 3]> = (0..n_vertices)
-        .map(|_| std::array::from_fn(|_| (f32::from(script.u8()) - 128.0) * 0.25 * scale))
-        .collect();
+    let (positions, attributes) = vertices(script);
+    let n_vertices = small(positions.len());
     let mut triangles = Vec::new();
     while !script.is_empty() && triangles.len() < MAX_TRIANGLES {
-        triangles.push(std::array::from_fn(|_| u32::from(script.u8()) % u32::from(small(n_vertices))));
+        triangles.push(std::array::from_fn(|_| u32::from(script.u8() % n_vertices)));
     }
+    TriangleMesh { positions, triangles, attributes, ..TriangleMesh::default() }
+}
+
+fn vertices(script: &mut Script<'_>) -> (Vec<[f32; 3]>, Vec<Attribute>) {
+    let scale = [1.0, 1e-30, 1e-40, 1e30, 1e-3, 1e37][script.below(6)];
+    let has_attribute = script.u8().is_multiple_of(4);
+    let n_vertices = 3 + script.below(MAX_VERTICES - 2);
+    let positions = (0..n_vertices)
+        .map(|_| std::array::from_fn(|_| (f32::from(script.u8()) - 128.0) * 0.25 * scale))
+        .collect();
     let color = Attribute {
         name: "color".into(),
         scalar: ScalarType::U8,
         n_components: 1,
         bytes: (0..n_vertices).map(|v| u8::from(v % 3 == 0)).collect(),
     };
-    let attributes = if has_attribute { vec![color] } else { Vec::new() };
-    TriangleMesh { positions, triangles, attributes, ..TriangleMesh::default() }
+    (positions, if has_attribute { vec![color] } else { Vec::new() })
 }
 
 /// Writes a history of any kind: refused with an error, or a file that verifies.
@@ -114,7 +202,10 @@ fn report_len(history: &History<3>) -> usize {
     history.birth.iter().filter(|&&birth| birth == 0).count()
 }
 
-fn written(mesh: &TriangleMesh, history: &History<3>) -> Result<Vec<u8>, WriteError> {
+fn written<'a, const CORNERS: usize>(
+    mesh: impl Into<Vertices<'a>>,
+    history: &History<CORNERS>,
+) -> Result<Vec<u8>, WriteError> {
     let mut stream = Cursor::new(Vec::new());
     write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions::default())?;
     Ok(stream.into_inner())

@@ -101,6 +101,18 @@ fn build_soup() {
 }
 
 #[test]
+fn build_soup_otherwise() {
+    on_this_thread();
+    check!().for_each(soup::build_soup_otherwise);
+}
+
+#[test]
+fn fuse_soup() {
+    on_this_thread();
+    check!().for_each(soup::fuse_soup);
+}
+
+#[test]
 fn write_history() {
     on_this_thread();
     check!().for_each(soup::write_history);
