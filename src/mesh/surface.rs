@@ -6,7 +6,7 @@ use crate::geometry::vector::{Vector, widen};
 /// Corners of a slot whose triangle is gone.
 const GONE: [u32; 3] = [u32::MAX; 3];
 
-/// So few slots do not close up.
+/// So few slots do not close up, nor does an eighth of those of the input: there is no more to be gained.
 const MIN_SLOTS: usize = 4096;
 
 /// Triangles in slots, with the star of every vertex.
@@ -144,7 +144,8 @@ impl Surface {
     /// Closes the slots up where a quarter of them has become empty, and gives the new numbers for all that runs parallel to the slots
     /// or names them. O(slots) when it works, O(1) otherwise.
     pub fn close_up(&mut self) -> Option<Renumbering> {
-        if self.n_slots() < MIN_SLOTS || 4 * self.n_triangles > 3 * self.n_slots() {
+        let is_short = self.n_slots() < MIN_SLOTS.max(self.n_vertices() / 4);
+        if is_short || 4 * self.n_triangles > 3 * self.n_slots() {
             return None;
         }
         let slots = Renumbering::new(self.triangles.iter().map(|&corners| corners != GONE));

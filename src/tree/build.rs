@@ -7,6 +7,9 @@ use std::ops::Range;
 /// Groups shorter than this are sorted on the spot, longer ones on all threads.
 const PARALLEL_SORT_LEN: usize = 1 << 14;
 
+/// A group of more than this part of all slots is large.
+const LARGE_PARTS: usize = 64;
+
 /// Lifetimes that cannot be laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -114,14 +117,16 @@ impl Layout {
         self.slots = slots;
     }
 
-    /// Gives the ids of each group to `order`, which may change their order. Groups run on all threads of the current rayon
-    /// pool, each thread with a state of its own from `init`; the result must not depend on that state.
+    /// Gives the ids of each group to `order`, which may change their order. Large groups come one after the other, so that what one of
+    /// them needs is never needed twice at a time; then the others run on all threads of the current rayon
+    /// pool, each thread with a state of its own from `init`. The result must not depend on that state.
     pub fn order_groups<S>(
         &mut self,
         init: impl Fn() -> S + Sync + Send,
         order: impl Fn(&mut S, &mut [u32]) + Sync + Send,
     ) {
         let mut slots = std::mem::take(&mut self.slots);
+        let n_slots = slots.len();
         let mut rest = slots.as_mut_slice();
         let mut groups = Vec::new();
         for (_, range) in self.groups() {
@@ -129,7 +134,12 @@ impl Layout {
             groups.push(group);
             rest = behind;
         }
-        groups.into_par_iter().for_each_init(init, order);
+        let large_len = n_slots / LARGE_PARTS;
+        let (large, small): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.len() > large_len);
+        let mut state = init();
+        large.into_iter().for_each(|group| order(&mut state, group));
+        drop(state);
+        small.into_par_iter().for_each_init(init, order);
         self.slots = slots;
     }
 

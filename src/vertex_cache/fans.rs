@@ -52,7 +52,7 @@ impl FanOrder {
         self.enter(&triangles);
         triangles.as_flattened_mut().iter_mut().for_each(|vertex| *vertex = self.place[*vertex as usize]);
         let n_vertices = self.vertices.len();
-        for vertex in self.vertices.drain(..) {
+        for vertex in std::mem::take(&mut self.vertices) {
             self.place[vertex as usize] = NONE;
         }
         Some(Drawing::new(triangles, n_vertices).run())

@@ -32,7 +32,7 @@ use crate::arguments::Arguments;
 use crate::failure::Failure;
 
 fn main() -> ExitCode {
-    allocator::return_large_blocks();
+    allocator::return_what_is_freed();
     let arguments = Arguments::parse();
     let printed = arguments.command.run(arguments.form()).and_then(|report| {
         report.print(arguments.form()).map_err(|source| Failure::system("standard output", source))

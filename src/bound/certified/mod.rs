@@ -37,15 +37,16 @@ use chains::Chains;
 use contents::Contents;
 use removal::Removal;
 use source::SourceEdges;
+use std::collections::HashMap;
 pub use transfer::{Change, Transfer};
 
 /// How many times the limit a displacement is followed up. The filling was chosen to be within the limit, so that little is
 /// learned from going on for long.
 pub const REACH: f64 = 1.3;
 
-/// No slot, or no corner.
-const NONE: u32 = u32::MAX;
+/// No corner, of a vertex that is removed or that is not.
 const NOT_ON_RIM: u8 = u8::MAX;
+const ALIVE: u8 = u8::MAX - 1;
 
 /// Added to every bound, as a multiple of the extent of mesh and origin. The rounding errors of a
 /// displacement, a few dozen operations in `f64` on exact `f32`, are a millionth of it; the rest covers whoever checks the
@@ -58,10 +59,11 @@ pub struct Certified {
     source: SourceEdges,
     chains: Chains,
     contents: Contents,
-    /// Slot of the triangle that each removed vertex belongs to.
-    slot_of: Vec<u32>,
-    /// For a removed vertex of the boundary: the corner of its triangle at which its boundary edge starts.
+    /// For a removed vertex of the boundary: the corner of its triangle at which its boundary edge starts. [`NOT_ON_RIM`] for other
+    /// removed ones, [`ALIVE`] for those that are not removed.
     rim_corner: Vec<u8>,
+    /// Slot of the triangle that each removed vertex of the boundary belongs to.
+    rim_slots: HashMap<u32, u32>,
     slack: f64,
 }
 
@@ -77,8 +79,8 @@ impl Certified {
         Self {
             chains: Chains::new(source.n_edges()),
             contents: Contents::new(n_slots),
-            slot_of: vec![NONE; n_vertices],
-            rim_corner: vec![NOT_ON_RIM; n_vertices],
+            rim_corner: vec![ALIVE; n_vertices],
+            rim_slots: HashMap::new(),
             source,
             slack: SLACK * extent + rounding,
         }
@@ -150,8 +152,10 @@ impl Certified {
                 edges.iter().map(|&(_, edge)| edge),
             );
             for assignment in vertices {
-                self.slot_of[assignment.vertex as usize] = slot;
                 self.rim_corner[assignment.vertex as usize] = assignment.rim_corner;
+                if assignment.rim_corner != NOT_ON_RIM {
+                    self.rim_slots.insert(assignment.vertex, slot);
+                }
             }
         }
     }
@@ -166,7 +170,7 @@ impl Certified {
     pub fn renumber_slots(&mut self, slots: &Renumbering) {
         self.chains.renumber_slots(slots);
         self.contents.renumber_slots(slots);
-        for slot in self.slot_of.iter_mut().filter(|slot| **slot != NONE) {
+        for slot in self.rim_slots.values_mut() {
             *slot = slots.place(*slot);
         }
     }
@@ -178,7 +182,7 @@ impl Certified {
     }
 
     fn is_alive(&self, v: u32) -> bool {
-        self.slot_of[v as usize] == NONE
+        self.rim_corner[v as usize] == ALIVE
     }
 }
 

@@ -106,7 +106,7 @@ impl Removal<'_> {
         if corner == NOT_ON_RIM {
             return None;
         }
-        let slot = self.certified.slot_of[v as usize];
+        let &slot = self.certified.rim_slots.get(&v)?;
         let corners = self.replacement.surface.corners(slot);
         let (from, to) = (corners[usize::from(corner)], corners[(usize::from(corner) + 1) % 3]);
         if from == hole.removed || to == hole.removed {

@@ -13,8 +13,11 @@ pub struct Decimation {
     pub surface: Surface,
     /// Its seams, if it has any.
     pub seams: Option<Seams>,
-    /// Vertex of the history for each vertex of `surface`, where there are no seams to tell it.
-    pub names: Vec<u32>,
+    /// Vertex of the input for each vertex of `surface`.
+    pub numbers: Vec<u32>,
+    /// Vertex of the history for each vertex of `surface`, where vertices move and there are no seams to tell it. Where they do not move
+    /// the history has the numbers of `surface` until it is finished: there, neighbours are near and take less memory.
+    pub names: Option<Vec<u32>>,
     /// Its errors.
     pub error: GlobalError,
     /// The history so far.
@@ -57,17 +60,22 @@ impl Decimation {
 
     /// The history, with what is still alive. Everything else is let go before it is laid out.
     pub fn finish(self) -> Finished {
-        let Self { surface, seams, names, error, recorder, moves, workers, .. } = self;
+        let Self { surface, seams, numbers, names, error, recorder, moves, workers, .. } = self;
         drop((error, workers));
         let alive: Vec<(u32, [u32; 3])> = surface
             .iter()
-            .map(|(slot, _)| (slot, named_corners(&surface, seams.as_ref(), &names, slot)))
+            .map(|(slot, _)| (slot, named_corners(&surface, seams.as_ref(), names.as_deref(), slot)))
             .collect();
-        drop(seams);
+        let is_named = seams.is_some() || names.is_some();
+        drop((seams, names));
         let positions = surface.into_positions();
-        let positions = moves.is_none().then(|| by_name(&names, &positions));
-        drop(names);
-        Finished { history: recorder.finish(&alive), moves, positions }
+        let positions = moves.is_none().then(|| by_number(&numbers, &positions));
+        let mut history = recorder.finish(&alive);
+        if !is_named {
+            history.vertex_death = by_number(&numbers, &history.vertex_death);
+            history.simplices.as_flattened_mut().iter_mut().for_each(|v| *v = numbers[*v as usize]);
+        }
+        Finished { history, moves, positions }
     }
 }
 
@@ -77,24 +85,30 @@ pub struct Finished {
     pub history: History,
     /// Vertices that moved.
     pub moves: Option<Moves>,
-    /// Positions of the vertices by their names in the history, if none could move.
+    /// Positions of the vertices of the input, if none could move.
     pub positions: Option<Vec<[f32; 3]>>,
 }
 
-/// Puts each position where its name says; names are those of the positions in another order.
-fn by_name(names: &[u32], positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
-    let mut named = vec![[0.0; 3]; positions.len()];
-    for (&name, &position) in names.iter().zip(positions) {
-        named[name as usize] = position;
+/// Puts what belongs to each vertex where its number says; the numbers are those of the places in another order.
+fn by_number<T: Copy + Default>(numbers: &[u32], of_vertices: &[T]) -> Vec<T> {
+    let mut arranged = vec![T::default(); of_vertices.len()];
+    for (&number, &item) in numbers.iter().zip(of_vertices) {
+        arranged[number as usize] = item;
     }
-    named
+    arranged
 }
 
-/// The vertices of the history at the corners of the triangle in `slot`.
-pub(super) fn named_corners(surface: &Surface, seams: Option<&Seams>, names: &[u32], slot: u32) -> [u32; 3] {
-    match seams {
-        Some(seams) => seams.corners(slot),
-        None => surface.corners(slot).map(|v| names[v as usize]),
+/// The vertices of the history at the corners of the triangle in `slot`, as they are recorded.
+pub(super) fn named_corners(
+    surface: &Surface,
+    seams: Option<&Seams>,
+    names: Option<&[u32]>,
+    slot: u32,
+) -> [u32; 3] {
+    match (seams, names) {
+        (Some(seams), _) => seams.corners(slot),
+        (None, Some(names)) => surface.corners(slot).map(|v| names[v as usize]),
+        (None, None) => surface.corners(slot),
     }
 }
 

@@ -138,13 +138,13 @@ fn record(decimation: &mut Decimation, moved: &[u32]) {
     slots.sort_unstable();
     slots.dedup();
     for &slot in &slots {
-        recorder.death(slot, named_corners(surface, seams.as_ref(), names, slot));
+        recorder.death(slot, named_corners(surface, seams.as_ref(), names.as_deref(), slot));
     }
     for &v in moved {
         let new = recorder.vertex();
         let old = match seams {
             Some(seams) => seams.rename(surface, v, new),
-            None => std::mem::replace(&mut names[v as usize], new),
+            None => names.as_mut().map_or(v, |names| std::mem::replace(&mut names[v as usize], new)),
         };
         moves.born.push((old, surface.positions()[v as usize]));
     }

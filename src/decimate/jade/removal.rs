@@ -54,7 +54,7 @@ impl Plan {
         error.check_room(&hole, &change)?;
         recorder.step(step_error);
         for &slot in &hole.slots {
-            recorder.death(slot, named_corners(surface, seams.as_ref(), names, slot));
+            recorder.death(slot, named_corners(surface, seams.as_ref(), names.as_deref(), slot));
         }
         error.apply(&hole, change);
         let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(&hole, i)).collect();
