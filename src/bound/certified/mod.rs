@@ -98,8 +98,8 @@ impl Certified {
         transfer.displacement(Removal { certified: self, replacement, covered }, limit) + self.slack
     }
 
-    /// What the replacement changes in the map, and the bound; or the bound alone where it is above `limit`, or some value above
-    /// [`REACH`] times the limit if it is above that. O(vertices and edges mapped into the star).
+    /// What the replacement changes in the map, and the bound; or, where that is above `limit`, some value above the limit and no
+    /// larger than it, followed up to [`REACH`] times the limit at most. O(vertices and edges mapped into the star).
     pub fn change(
         &self,
         replacement: Replacement<'_>,

@@ -41,13 +41,13 @@ impl Removal<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Shows `take` the source edges without a chain that are to get one, given where the vertices go, each once, until it breaks.
+    /// Shows `take` the source edges without a chain that are to get one, with their ends, given where the vertices go, each once, until it breaks.
     /// Both ends are corners of the star or mapped into it: each is met at its lower end.
     #[inline]
     pub(super) fn try_each_split_edge(
         &self,
         labels: &Labels,
-        mut take: impl FnMut(u32) -> ControlFlow<()>,
+        mut take: impl FnMut(u32, [u32; 2]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let Certified { source, chains, .. } = self.certified;
         for &v in &self.covered.vertices {
@@ -58,7 +58,7 @@ impl Removal<'_> {
                     None => !self.has_corner(label, other),
                 };
                 if is_split && !chains.has(edge) {
-                    take(edge)?;
+                    take(edge, [v, other])?;
                 }
             }
         }
@@ -66,7 +66,7 @@ impl Removal<'_> {
             for (edge, other) in source.up(v) {
                 let is_split = labels.get(other).is_some_and(|label| !self.has_corner(label, v));
                 if is_split && !chains.has(edge) {
-                    take(edge)?;
+                    take(edge, [v, other])?;
                 }
             }
         }

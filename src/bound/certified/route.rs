@@ -23,6 +23,8 @@ pub(super) struct Destinations {
 /// The new chain of one edge at a time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Route {
+    /// The edge's ends, the lower one first.
+    ends: [u32; 2],
     /// Its portions.
     pub(super) portions: Vec<Portion>,
     /// For each of them the filling's triangle, or [`OUTSIDE`].
@@ -96,6 +98,7 @@ impl Route {
         self.old_labels.push(here);
         self.old_labels.extend(labels);
         let ends = source.ends(edge);
+        self.ends = ends;
         let segment = ends.map(|v| removal.replacement.surface.origin(v));
         self.portions.clear();
         self.labels.clear();
@@ -130,9 +133,10 @@ impl Route {
         Some(largest_sq)
     }
 
-    /// Makes this the chain of `edge`, which had none and lies in the hole; the largest squared displacement of a crossing.
-    pub(super) fn split(&mut self, destinations: &Destinations, removal: Removal<'_>, edge: u32) -> f64 {
-        let ends = removal.certified.source.ends(edge);
+    /// Makes this the chain of the edge with the given ends, which had none and lies in the hole; the largest squared displacement of
+    /// a crossing.
+    pub(super) fn split(&mut self, destinations: &Destinations, removal: Removal<'_>, ends: [u32; 2]) -> f64 {
+        self.ends = ends;
         let segment = ends.map(|v| removal.replacement.surface.origin(v));
         self.portions.clear();
         self.labels.clear();
@@ -142,9 +146,8 @@ impl Route {
 
     /// Takes out what the chain does not need: going over an edge and straight back, and turning about a vertex that is
     /// its own image.
-    pub(super) fn shorten(&mut self, removal: Removal<'_>, edge: u32) {
-        let Self { portions, labels, .. } = self;
-        let [low, high] = removal.certified.source.ends(edge);
+    pub(super) fn shorten(&mut self, removal: Removal<'_>) {
+        let &mut Self { ends: [low, high], ref mut portions, ref mut labels, .. } = self;
         let touches = |portion: Portion, label, v| removal.touches(portion.slot, label, v);
         let mut kept = 0;
         for at in 0..portions.len() {

@@ -61,14 +61,13 @@ impl Transfer {
         self.walk(removal, [limit_sq; 2], |_, _| ()).sqrt()
     }
 
-    /// What the removal changes, and the largest displacement; or that alone where it is above `limit`, or the first one found above
-    /// [`REACH`] times the limit.
+    /// What the removal changes, and the largest displacement; or a lower bound of that, above `limit`, alone.
     pub(super) fn change(&mut self, removal: Removal<'_>, limit: f64) -> Result<(f64, Change), f64> {
         let mut draft = std::mem::take(&mut self.draft);
         draft.clear();
         let limit_sq = limit * limit;
         let largest_sq = self.walk(removal, [limit_sq, REACH * REACH * limit_sq], |edge, route| {
-            route.shorten(removal, edge);
+            route.shorten(removal);
             draft.add_chain(removal, edge, route);
         });
         let found = largest_sq.sqrt();
@@ -83,7 +82,8 @@ impl Transfer {
     }
 
     /// Gives every source edge that the removal moves its new chain and, as long as nothing is above the limit, shows it to `take`.
-    /// Largest squared displacement inside the hole, or the first one found out of reach.
+    /// Largest squared displacement inside the hole, or a lower bound of it above the limit: vertices come first, then the edges
+    /// that have no chain yet, which are fewer than the others, and what is above the limit by then is not followed up.
     #[inline]
     fn walk(
         &mut self,
@@ -92,32 +92,28 @@ impl Transfer {
         mut take: impl FnMut(u32, &mut Route),
     ) -> f64 {
         let mut largest_sq = self.place_vertices(removal, [limit_sq, reach_sq]);
-        if largest_sq > reach_sq {
+        if largest_sq > limit_sq {
             return largest_sq;
         }
         let Self { destinations, route, .. } = self;
-        let mut go_on = |edge, found_sq: f64, route: &mut Route| {
-            largest_sq = largest_sq.max(found_sq);
-            if largest_sq > reach_sq {
-                return ControlFlow::Break(());
-            }
-            if largest_sq <= limit_sq {
+        let mut go_on = |largest_sq: &mut f64, edge, found_sq, route: &mut Route| {
+            *largest_sq = largest_sq.max(found_sq);
+            if *largest_sq <= limit_sq {
                 take(edge, route);
             }
-            ControlFlow::Continue(())
+            if *largest_sq <= reach_sq { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
-        let _ = removal
-            .try_each_split_edge(&destinations.labels, |edge| {
-                let found_sq = route.split(destinations, removal, edge);
-                go_on(edge, found_sq, route)
-            })
-            .is_continue()
-            && removal
-                .try_each_chained_edge(|met| match route.follow(destinations, removal, met) {
-                    Some(found_sq) => go_on(met.edge, found_sq, route),
-                    None => ControlFlow::Continue(()),
-                })
-                .is_continue();
+        let _ = removal.try_each_split_edge(&destinations.labels, |edge, ends| {
+            let found_sq = route.split(destinations, removal, ends);
+            go_on(&mut largest_sq, edge, found_sq, route)
+        });
+        if largest_sq > limit_sq {
+            return largest_sq;
+        }
+        let _ = removal.try_each_chained_edge(|met| match route.follow(destinations, removal, met) {
+            Some(found_sq) => go_on(&mut largest_sq, met.edge, found_sq, route),
+            None => ControlFlow::Continue(()),
+        });
         largest_sq
     }
 
