@@ -63,7 +63,7 @@ impl Removal<'_> {
             }
         }
         for &v in &self.replacement.hole.ring {
-            for (edge, other) in source.up(v) {
+            for (edge, other) in source.up_to(v, &self.covered.vertices) {
                 let is_split = labels.get(other).is_some_and(|label| !self.has_corner(label, v));
                 if is_split && !chains.has(edge) {
                     take(edge, [v, other])?;

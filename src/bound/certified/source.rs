@@ -17,6 +17,9 @@ pub struct SourceEdges {
 /// Edges between two whose lower end is written down.
 const BLOCK: usize = 16;
 
+/// More edges up from a vertex than this are not gone through for the sake of a few.
+const HUB: usize = 64;
+
 impl SourceEdges {
     /// Edges of `triangles` over `n_vertices` vertices. O(n log valence).
     pub fn new(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> Self {
@@ -64,6 +67,27 @@ impl SourceEdges {
     pub fn up(&self, v: u32) -> impl Iterator<Item = (u32, u32)> {
         let (start, end) = (self.first_up[v as usize], self.first_up[v as usize + 1]);
         (start..end).zip(self.highs[start as usize..end as usize].iter().copied())
+    }
+
+    /// Those of the edges [up](Self::up) from `v` that lead to one of `others`, and maybe more of them. O(edges up from `v`), or
+    /// O(others log edges) at a hub of many edges.
+    #[inline]
+    pub fn up_to(&self, v: u32, others: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+        let is_hub = self.n_up(v) > HUB.max(others.len());
+        let (of_hub, all) = if is_hub { (others, v..v) } else { (&[][..], v..v + 1) };
+        let found = of_hub.iter().filter_map(move |&other| Some((self.edge(v, other)?, other)));
+        all.flat_map(|v| self.up(v)).chain(found)
+    }
+
+    fn n_up(&self, v: u32) -> usize {
+        (self.first_up[v as usize + 1] - self.first_up[v as usize]) as usize
+    }
+
+    /// The edge from `low` up to `high`. O(log edges).
+    fn edge(&self, low: u32, high: u32) -> Option<u32> {
+        let start = self.first_up[low as usize];
+        let highs = &self.highs[start as usize..][..self.n_up(low)];
+        highs.binary_search(&high).ok().map(|at| start + index(at))
     }
 }
 
@@ -131,7 +155,20 @@ mod tests {
             for v in 0..9 {
                 let up: BTreeSet<_> = edges.up(v).map(|(edge, high)| { assert_eq!(edges.ends(edge), [v, high]); edge }).collect();
                 prop_assert_eq!(up.len(), expected.iter().filter(|ends| ends[0] == v).count());
+                for other in 0..9 {
+                    prop_assert_eq!(edges.edge(v, other).is_some(), expected.contains(&[v, other]));
+                }
             }
         }
+    }
+
+    #[test]
+    fn a_hub_is_asked_for_the_edges_in_question() {
+        let n = 3 * u32::try_from(HUB).unwrap();
+        let fan = (1..n).map(|i| [0, i, i + 1]);
+        let edges = SourceEdges::new(n as usize + 1, fan);
+        let found: Vec<(u32, u32)> = edges.up_to(0, &[7, n, 2]).collect();
+        assert_eq!(found, [(6, 7), (n - 1, n), (1, 2)]);
+        assert!(edges.up_to(5, &[]).eq(edges.up(5)));
     }
 }
