@@ -345,7 +345,9 @@ impl Decimation {
                     Some(collapse)
                 };
                 match collapse {
-                    Some(collapse) => self.collapse(collapse),
+                    Some(collapse) => {
+                        self.collapse(collapse);
+                    }
                     None => {
                         self.choices.forget(v);
                         self.queue.set(v, queued);
@@ -364,7 +366,7 @@ impl Decimation {
                 self.view.class = Class::Simple;
             }
             if let Some(collapse) = self.best_collapse() {
-                self.collapse(collapse);
+                self.keeps_crack[v as usize] = !self.collapse(collapse);
                 return;
             }
         }

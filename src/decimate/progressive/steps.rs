@@ -10,8 +10,8 @@ use super::ring::Ring;
 use super::view::View;
 
 impl Decimation {
-    /// Takes the vertex at hand along an edge, unless the error would be too large.
-    pub(super) fn collapse(&mut self, Collapse { into, contact, distance }: Collapse) {
+    /// Takes the vertex at hand along an edge, unless the error would be too large; whether it did.
+    pub(super) fn collapse(&mut self, Collapse { into, contact, distance }: Collapse) -> bool {
         let View { ring, class, .. } = &self.view;
         let keeps_topology = contact == Contact::None && !vanishes(ring) && *class != Class::CrackTip;
         let max_error = self.settings.max_error;
@@ -21,7 +21,7 @@ impl Decimation {
         };
         let error = proven.unwrap_or_else(|| self.accumulated.after(ring, distance) + self.settings.rounding);
         if error > max_error {
-            return;
+            return false;
         }
         let is_carried_on = proven.is_some() && self.proof.as_mut().is_some_and(Proof::carry_out);
         if !is_carried_on {
@@ -38,6 +38,7 @@ impl Decimation {
             self.note_change(r);
         }
         self.view.ring = ring;
+        true
     }
 
     /// History, operations and mesh.
