@@ -2,13 +2,11 @@
 
 pub mod accumulated;
 pub mod certified;
-pub mod covered;
 pub mod estimate;
 pub mod removed;
 
 use crate::mesh::{Filling, Hole, Renumbering, Surface, TooMany};
 use certified::{Certified, Transfer};
-use covered::Covered;
 use estimate::Estimate;
 
 /// How many times the limit an error is followed up: what a removal needs is then known well enough for the limits to come, and
@@ -46,18 +44,16 @@ pub enum Change {
 
 impl GlobalError {
     /// What the replacement changes, found without changing it, and its errors; where they are above the limits only the errors,
-    /// or lower bounds of them well above the limits. `covered` holds what is mapped into the hole where the error is
-    /// certified.
+    /// or lower bounds of them above the limits.
     pub fn change(
         &self,
         replacement: Replacement<'_>,
-        covered: &Covered,
         limits: Limits,
         transfer: &mut Transfer,
     ) -> Result<(Errors, Change), Errors> {
         match self {
             Self::Certified(certified) => {
-                let found = certified.change(replacement, covered, limits.global, transfer);
+                let found = certified.change(replacement, limits.global, transfer);
                 let errors = |global| Errors { local: 0.0, global };
                 found.map(|(global, change)| (errors(global), Change::Certified(change))).map_err(errors)
             }

@@ -80,7 +80,7 @@ pub fn repair(mut mesh: TriangleMesh) -> Repaired {
     let has_seams = report.vertices_on_seams > 0;
     let looks = has_seams.then(|| first_used(&looks, &renumbered, n_used));
     let points = has_seams.then_some(points);
-    keep_used(&mut mesh, &renumbered);
+    keep_used(&mut mesh, &renumbered, n_used);
     Repaired { mesh, points, looks, report }
 }
 
@@ -230,15 +230,14 @@ fn count_shared(points: &[u32]) -> usize {
     points.iter().filter(|&&point| n_at_point[point as usize] > 1).count()
 }
 
-/// Drops the vertices that are not numbered, in place.
-fn keep_used(mesh: &mut TriangleMesh, renumbered: &[u32]) {
+/// Drops the vertices that are not among the `n_used` numbered ones, in place.
+fn keep_used(mesh: &mut TriangleMesh, renumbered: &[u32], n_used: usize) {
     for attribute in &mut mesh.attributes {
         let stride = attribute.stride_bytes();
         for (v, &index) in renumbered.iter().enumerate().filter(|&(_, &index)| index != UNUSED) {
             // Never to a place behind the one it comes from.
             attribute.bytes.copy_within(v * stride..(v + 1) * stride, index as usize * stride);
         }
-        let n_used = renumbered.iter().filter(|&&index| index != UNUSED).count();
         attribute.bytes.truncate(n_used * stride);
     }
     let mut indices = renumbered.iter();

@@ -30,12 +30,10 @@ mod star;
 mod transfer;
 
 use super::Replacement;
-use super::covered::Covered;
 use crate::geometry::vector::{length, max, min, widen};
 use crate::mesh::{Hole, Renumbering, Surface, TooMany, check_places};
 use chains::Chains;
 use contents::Contents;
-use removal::Removal;
 use source::SourceEdges;
 use std::collections::HashMap;
 pub use transfer::{Change, Transfer};
@@ -87,15 +85,9 @@ impl Certified {
     }
 
     /// A bound on the displacement inside the hole once it is closed, or some value above `limit` if the bound is above
-    /// that. `covered` holds [`Self::vertices_in`] the hole. O(vertices and edges mapped into the star).
-    pub fn bound(
-        &self,
-        replacement: Replacement<'_>,
-        covered: &Covered,
-        limit: f64,
-        transfer: &mut Transfer,
-    ) -> f64 {
-        transfer.displacement(Removal { certified: self, replacement, covered }, limit) + self.slack
+    /// that. O(vertices and edges mapped into the star).
+    pub fn bound(&self, replacement: Replacement<'_>, limit: f64, transfer: &mut Transfer) -> f64 {
+        transfer.displacement(self, replacement, limit) + self.slack
     }
 
     /// What the replacement changes in the map, and the bound; or, where that is above `limit`, some value above the limit and no
@@ -103,11 +95,10 @@ impl Certified {
     pub fn change(
         &self,
         replacement: Replacement<'_>,
-        covered: &Covered,
         limit: f64,
         transfer: &mut Transfer,
     ) -> Result<(f64, Change), f64> {
-        match transfer.change(Removal { certified: self, replacement, covered }, limit) {
+        match transfer.change(self, replacement, limit) {
             Ok((displacement, change)) if displacement + self.slack <= limit => {
                 Ok((displacement + self.slack, change))
             }

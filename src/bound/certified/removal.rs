@@ -5,7 +5,6 @@ use super::route::Met;
 use super::star::OUTSIDE;
 use super::{Certified, NOT_ON_RIM};
 use crate::bound::Replacement;
-use crate::bound::covered::Covered;
 use crate::bound::removed::nearest;
 use crate::geometry::distance::{Segment, point_triangle_distance_sq};
 use crate::geometry::vector::Vector;
@@ -16,7 +15,8 @@ use std::ops::ControlFlow;
 pub(super) struct Removal<'a> {
     pub(super) certified: &'a Certified,
     pub(super) replacement: Replacement<'a>,
-    pub(super) covered: &'a Covered,
+    /// The source vertices mapped into the star.
+    pub(super) covered: &'a [u32],
 }
 
 impl Removal<'_> {
@@ -41,8 +41,8 @@ impl Removal<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Shows `take` the source edges without a chain that are to get one, with their ends, given where the vertices go, each once, until it breaks.
-    /// Both ends are corners of the star or mapped into it: each is met at its lower end.
+    /// Shows `take` the source edges without a chain that are to get one, with their ends, given where the vertices go, each once,
+    /// until it breaks. Both ends are corners of the star or mapped into it: each is met at its lower end.
     #[inline]
     pub(super) fn try_each_split_edge(
         &self,
@@ -50,7 +50,7 @@ impl Removal<'_> {
         mut take: impl FnMut(u32, [u32; 2]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let Certified { source, chains, .. } = self.certified;
-        for &v in &self.covered.vertices {
+        for &v in self.covered {
             let label = labels.get(v).unwrap_or_default();
             for (edge, other) in source.up(v) {
                 let is_split = match labels.get(other) {
@@ -63,7 +63,7 @@ impl Removal<'_> {
             }
         }
         for &v in &self.replacement.hole.ring {
-            for (edge, other) in source.up_to(v, &self.covered.vertices) {
+            for (edge, other) in source.up_to(v, self.covered) {
                 let is_split = labels.get(other).is_some_and(|label| !self.has_corner(label, v));
                 if is_split && !chains.has(edge) {
                     take(edge, [v, other])?;

@@ -5,10 +5,10 @@ use super::location::Location;
 use super::removal::Removal;
 use super::route::{Destinations, Route};
 use super::star::OUTSIDE;
-use super::{NOT_ON_RIM, REACH};
+use super::{Certified, NOT_ON_RIM, REACH};
 use crate::bound::Replacement;
 use crate::geometry::distance::point_segment_distance_sq;
-use crate::mesh::MAX_VALENCE;
+use crate::mesh::{Hole, MAX_VALENCE};
 use std::ops::ControlFlow;
 
 /// Buffers of the transfer, one per thread.
@@ -17,6 +17,8 @@ pub struct Transfer {
     destinations: Destinations,
     route: Route,
     location: Location,
+    /// Source vertices mapped into the hole.
+    covered: Vec<u32>,
     /// A change while it is not known whether it is needed: most removals end above the limit.
     draft: Change,
 }
@@ -56,13 +58,29 @@ pub(super) struct NewChain {
 
 impl Transfer {
     /// Largest displacement inside the hole, or the first one found above `limit`.
-    pub(super) fn displacement(&mut self, removal: Removal<'_>, limit: f64) -> f64 {
+    pub(super) fn displacement(
+        &mut self,
+        certified: &Certified,
+        replacement: Replacement<'_>,
+        limit: f64,
+    ) -> f64 {
+        let covered = self.gather(certified, replacement.hole);
         let limit_sq = limit * limit;
-        self.walk(removal, [limit_sq; 2], |_, _| ()).sqrt()
+        let removal = Removal { certified, replacement, covered: &covered };
+        let found = self.walk(removal, [limit_sq; 2], |_, _| ()).sqrt();
+        self.covered = covered;
+        found
     }
 
     /// What the removal changes, and the largest displacement; or a lower bound of that, above `limit`, alone.
-    pub(super) fn change(&mut self, removal: Removal<'_>, limit: f64) -> Result<(f64, Change), f64> {
+    pub(super) fn change(
+        &mut self,
+        certified: &Certified,
+        replacement: Replacement<'_>,
+        limit: f64,
+    ) -> Result<(f64, Change), f64> {
+        let covered = self.gather(certified, replacement.hole);
+        let removal = Removal { certified, replacement, covered: &covered };
         let mut draft = std::mem::take(&mut self.draft);
         draft.clear();
         let limit_sq = limit * limit;
@@ -78,7 +96,16 @@ impl Transfer {
             Ok((found, draft.in_order()))
         };
         self.draft = draft;
+        self.covered = covered;
         result
+    }
+
+    /// The source vertices mapped into the star of `hole`, in the buffer for them, to be given back.
+    fn gather(&mut self, certified: &Certified, hole: &Hole) -> Vec<u32> {
+        let mut covered = std::mem::take(&mut self.covered);
+        covered.clear();
+        certified.vertices_in(hole).for_each(|list| covered.extend_from_slice(list));
+        covered
     }
 
     /// Gives every source edge that the removal moves its new chain and, as long as nothing is above the limit, shows it to `take`.
@@ -127,7 +154,7 @@ impl Transfer {
         labels.start(surface.n_vertices());
         self.location.build(hole, filling);
         let mut largest_sq = 0.0_f64;
-        for &v in &covered.vertices {
+        for &v in covered {
             let p = surface.origin(v);
             let (label, distance_sq) = match removal.rim_edge(v) {
                 Some(i) => (tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
@@ -158,7 +185,7 @@ impl Change {
             label: destinations.labels.get(vertex).unwrap_or_default(),
             rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
         };
-        self.assignments.extend(removal.covered.vertices.iter().map(assign));
+        self.assignments.extend(removal.covered.iter().map(assign));
     }
 
     /// A copy in order of the labels.

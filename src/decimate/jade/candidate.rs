@@ -7,7 +7,6 @@ use super::flip::flip_edges;
 use super::triangulate::{Polygons, triangulate};
 use crate::bound::certified::images::Image;
 use crate::bound::certified::{Certified, Transfer};
-use crate::bound::covered::Covered;
 use crate::bound::estimate::Estimate;
 use crate::bound::{Errors, GlobalError, Limits};
 use crate::mesh::{Filling, Hole, NoHole, Seams, Surface};
@@ -45,8 +44,6 @@ pub struct Scratch {
     pub filling: Filling,
     polygons: Polygons,
     asked: Asked,
-    /// Input vertices over the hole.
-    pub covered: Covered,
     /// Buffers for carrying the certified map along.
     pub transfer: Transfer,
     /// What is mapped onto the star of a vertex that may move.
@@ -98,7 +95,7 @@ fn fill_best(
     limits: Limits,
     scratch: &mut Scratch,
 ) -> Result<(), Verdict> {
-    let Scratch { hole, filling, polygons, asked, covered, .. } = scratch;
+    let Scratch { hole, filling, polygons, asked, .. } = scratch;
     let surface = situation.surface;
     let limit_sq = limits.global * limits.global;
     let fitted_sq = asked
@@ -107,11 +104,9 @@ fn fill_best(
         .flatten();
     match fitted_sq {
         Some(fitted_sq) if fitted_sq > limit_sq => {
-            return Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }));
+            Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
         }
-        None if !triangulate(surface, hole, class, polygons, filling) => return Err(Verdict::Impossible),
-        _ => {}
+        None if !triangulate(surface, hole, class, polygons, filling) => Err(Verdict::Impossible),
+        _ => Ok(()),
     }
-    covered.gather(certified.vertices_in(hole));
-    Ok(())
 }

@@ -29,8 +29,8 @@ pub struct Fitting<'a> {
 }
 
 /// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to the points
-/// covered, as far as they are asked. Returns the largest distance among those and the triangles they lie over, squared, or a lower bound of it above
-/// [`REACH`] times the limit; `None` where there is no such filling or the hole is too large.
+/// covered, as far as they are asked. Returns the largest distance among those and the triangles they lie over, squared, or a lower
+/// bound of it above [`REACH`] times the limit; `None` where there is no such filling or the hole is too large.
 pub fn fit(
     fitting: Fitting<'_>,
     asked: &mut Asked,

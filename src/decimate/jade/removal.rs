@@ -23,10 +23,9 @@ pub fn plan(
     scratch: &mut Scratch,
 ) -> Result<Plan, Verdict> {
     fill(situation, v, limits, scratch)?;
-    let Scratch { hole, filling, covered, transfer, .. } = scratch;
+    let Scratch { hole, filling, transfer, .. } = scratch;
     let replacement = Replacement { surface: situation.surface, hole, filling };
-    let (errors, change) =
-        situation.error.change(replacement, covered, limits, transfer).map_err(Verdict::Above)?;
+    let (errors, change) = situation.error.change(replacement, limits, transfer).map_err(Verdict::Above)?;
     Ok(Plan { hole: hole.without_points(), filling: filling.clone(), error: errors.global, change })
 }
 

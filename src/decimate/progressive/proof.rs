@@ -8,7 +8,6 @@ use super::complex::Complex;
 use super::ring::Ring;
 use crate::bound::Replacement;
 use crate::bound::certified::{Certified, Transfer};
-use crate::bound::covered::Covered;
 use crate::mesh::{Filling, Hole, Surface};
 
 /// The map from the input onto the current mesh, and that mesh once more in the form that the map refers to.
@@ -18,7 +17,6 @@ pub struct Proof {
     certified: Certified,
     hole: Hole,
     filling: Filling,
-    covered: Covered,
     transfer: Transfer,
 }
 
@@ -32,7 +30,6 @@ impl Proof {
             surface,
             hole: Hole::default(),
             filling: Filling::default(),
-            covered: Covered::default(),
             transfer: Transfer::default(),
         }
     }
@@ -40,23 +37,21 @@ impl Proof {
     /// A bound on the error once the ring's centre has gone into neighbour `into`, or some value above `limit`. Nothing where the
     /// star is none that the proof can follow. O(input mapped into the star).
     pub fn bound(&mut self, ring: &Ring, into: usize, limit: f64) -> Option<f64> {
-        let Self { surface, certified, hole, filling, covered, transfer } = self;
+        let Self { surface, certified, hole, filling, transfer } = self;
         hole.gather(surface, ring.center).ok()?;
         let target = hole.ring.iter().position(|&r| r == ring.vertices[into])?;
         fill_with_fan(hole, target, filling);
         if filling.triangles.len() + 2 != hole.n_ring() || filling.triangles.is_empty() {
             return None;
         }
-        covered.gather(certified.vertices_in(hole));
-        Some(certified.bound(Replacement { surface, hole, filling }, covered, limit, transfer))
+        Some(certified.bound(Replacement { surface, hole, filling }, limit, transfer))
     }
 
     /// Carries the map over to the fan that [`Self::bound`] was asked about last; false where there is no room for it, and the
     /// proof ends.
     pub fn carry_out(&mut self) -> bool {
-        let Self { surface, certified, hole, filling, covered, transfer } = self;
-        let found =
-            certified.change(Replacement { surface, hole, filling }, covered, f64::INFINITY, transfer);
+        let Self { surface, certified, hole, filling, transfer } = self;
+        let found = certified.change(Replacement { surface, hole, filling }, f64::INFINITY, transfer);
         let Ok((_, change)) = found else { return false };
         if certified.check_room(&change, hole.slots.len()).is_err() {
             return false;
