@@ -9,11 +9,12 @@ mod support;
 use nephrite::Lod;
 use nephrite::store::StoreOptions;
 use support::damage::{Outcome, open_and_use};
-use support::file_bytes_with;
 use support::synthetic::{decimate, grid, succeed};
+use support::{file_bytes_with, on_this_thread};
 
 #[test]
 fn are_read_and_used() {
+    let _pool = on_this_thread();
     let usual = StoreOptions::default();
     let forms = [
         usual,

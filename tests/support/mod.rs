@@ -63,3 +63,9 @@ pub fn assert_levels_equal_scans(lod: &Lod, mesh: &TriangleMesh, history: &Histo
         assert_eq!(lod.curve().nth(level as usize).unwrap().vertices as usize, n_alive, "level {level}");
     }
 }
+
+/// Makes this thread the only one of its pool, so that nothing runs elsewhere while that lasts: interpreters that check each access follow
+/// the code here, but not how a pool hands it out.
+pub fn on_this_thread() -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().unwrap()
+}
