@@ -1,6 +1,7 @@
 //! Opening a file: mapped and read, beside reading the bytes and nothing else; and the first cut out of a mapped file,
 //! with the file in the system's memory and, on Linux, with the system made to forget it.
 
+#![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on has failed")]
 #![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
 

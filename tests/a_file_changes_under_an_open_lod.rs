@@ -1,6 +1,7 @@
 //! Promise: what happens to the file of an open `Lod` has the outcome that is documented, and no other: one that was read does
 //! not notice; a mapped one keeps a file that is replaced or deleted, ends with SIGBUS when it is truncated, and gives
 //! answers in range when it is written over. The reader is a process of its own.
+#![expect(unsafe_code, reason = "files are mapped here, and breaking the contract is the point")]
 #![cfg(unix)]
 #![allow(
     clippy::unwrap_used,

@@ -1,5 +1,6 @@
 //! Promise: opening looks at the head only, whatever the size of the file and whatever it is; offsets beyond 4 GiB work.
 
+#![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
 #![allow(
     clippy::cast_possible_truncation,
     clippy::unwrap_used,

@@ -1,6 +1,7 @@
 //! Promise: after a failed write the path holds what it held before, nothing is left beside it, and readers of the old file
 //! keep it.
 
+#![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod support;

@@ -3,6 +3,8 @@
 //! A map shows the file, not a copy of it. That is what makes opening cheap and lets many processes share one page cache,
 //! and it is why mapping cannot be a safe function: Rust promises that bytes behind a shared reference do not change.
 
+#![expect(unsafe_code, reason = "a map shows what others write to the file, see above")]
+
 use super::OpenError;
 use super::memory::{Memory, open_regular};
 use super::opened::Opened;

@@ -6,6 +6,11 @@
 //! keeps it at mapping. Peak of a build of the dragon (435,545 vertices), less an empty process: 233 instead of 280 bytes per vertex,
 //! for 4 % more time. No safe interface has it.
 
+#![cfg_attr(
+    all(target_os = "linux", target_env = "gnu"),
+    expect(unsafe_code, reason = "a call to the C library that no safe interface has")
+)]
+
 /// Blocks from this many bytes on are mapped.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const MAPPED_BYTES: i32 = 64 * 1024;
