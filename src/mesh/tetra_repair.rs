@@ -14,7 +14,7 @@
 //! 5. A tetrahedron of zero volume with four distinct corners is kept: its neighbours are joined through it.
 //! 6. Vertices that no tetrahedron uses are dropped.
 
-use super::tetrahedra::{FACES, FaceLists, boundary_faces, boundary_triangles};
+use super::tetrahedra::{FACES, FaceLists, Sides, boundary_triangles};
 use nephrite_formats::{Attribute, TetrahedronMesh};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -42,7 +42,7 @@ pub struct TetrahedronRepairReport {
     pub tetrahedra_flat: usize,
     /// Tetrahedra of negative volume, kept.
     pub tetrahedra_inverted: usize,
-    /// Faces of three tetrahedra or more, whose corners stay where they are.
+    /// Faces of three tetrahedra or more, or of two on the same side, whose corners stay where they are.
     pub faces_crowded: usize,
 }
 
@@ -57,14 +57,7 @@ pub fn repair_tetrahedra(input: &TetrahedronMesh) -> (TetrahedronMesh, Tetrahedr
     peel(&mut mesh, &mut report);
     report.tetrahedra_flat = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) == 0.0).count();
     report.tetrahedra_inverted = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) < 0.0).count();
-    let lists = FaceLists::new(&mesh.tetrahedra, mesh.positions.len());
-    report.faces_crowded = lists
-        .into_lists()
-        .map(|mut list| {
-            list.sort_unstable();
-            list.chunk_by(|a, b| a.others == b.others).filter(|same| same.len() > 2).count()
-        })
-        .sum();
+    report.faces_crowded = Sides::new(&mesh.tetrahedra, mesh.positions.len()).misfits.len();
     (mesh, report)
 }
 
@@ -223,15 +216,11 @@ fn turn(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
 /// Of each tetrahedron the faces that a neighbour sees from the other side, and those it shares.
 fn fitting_faces(mesh: &TetrahedronMesh) -> Vec<[u8; 2]> {
     let mut counts = vec![[0; 2]; mesh.tetrahedra.len()];
-    let is_even = |slot: u32, corner: u32| {
-        let [a, b, c] = FACES[corner as usize].map(|i| mesh.tetrahedra[slot as usize][i]);
-        (u8::from(a > b) + u8::from(b > c) + u8::from(a > c)) & 1 == 0
-    };
     for mut list in FaceLists::new(&mesh.tetrahedra, mesh.positions.len()).into_lists() {
         list.sort_unstable();
         for same in list.chunk_by(|a, b| a.others == b.others) {
             if let [a, b] = same {
-                let fits = is_even(a.slot, a.corner) != is_even(b.slot, b.corner);
+                let fits = a.is_even(&mesh.tetrahedra) != b.is_even(&mesh.tetrahedra);
                 for face in [a, b] {
                     counts[face.slot as usize][0] += u8::from(fits);
                     counts[face.slot as usize][1] += 1;
@@ -271,9 +260,8 @@ fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
         return;
     }
     let mut is_on_boundary = vec![false; mesh.positions.len()];
-    for (tetrahedron, bits) in
-        mesh.tetrahedra.iter().zip(boundary_faces(&mesh.tetrahedra, mesh.positions.len()))
-    {
+    let sides = Sides::new(&mesh.tetrahedra, mesh.positions.len());
+    for (tetrahedron, bits) in mesh.tetrahedra.iter().zip(sides.boundary) {
         for corner in (0..4).filter(|corner| bits >> corner & 1 == 1) {
             FACES[corner].iter().for_each(|&i| is_on_boundary[tetrahedron[i] as usize] = true);
         }
@@ -301,7 +289,7 @@ fn peel(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     if inverted.is_empty() {
         return;
     }
-    let bits = boundary_faces(&mesh.tetrahedra, mesh.positions.len());
+    let bits = Sides::new(&mesh.tetrahedra, mesh.positions.len()).boundary;
     let surface = boundary_triangles(&mesh.tetrahedra, mesh.positions.len());
     let edges: HashSet<[u32; 2]> =
         surface.iter().flat_map(|&[a, b, c]| [ascending(a, b), ascending(b, c), ascending(c, a)]).collect();

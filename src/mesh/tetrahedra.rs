@@ -22,6 +22,7 @@ pub struct Tetrahedra {
     corners: Vec<[u32; 4]>,
     /// Bit `i`: nothing is on the other side of the face opposite corner `i`.
     boundary: Vec<u8>,
+    misfits: Vec<[u32; 3]>,
     stars: Vec<Star>,
     pool: Vec<u32>,
     n_alive: usize,
@@ -60,12 +61,13 @@ impl Tetrahedra {
                 star.len += 1;
             }
         }
-        let boundary = boundary_faces(&corners, positions.len());
+        let Sides { boundary, misfits } = Sides::new(&corners, positions.len());
         let n_alive = corners.len();
         Self {
             positions,
             corners,
             boundary,
+            misfits,
             stars,
             pool,
             n_alive,
@@ -151,6 +153,11 @@ impl Tetrahedra {
         })
     }
 
+    /// Faces that did not part two tetrahedra at the start: of three or more, or of two on the same side.
+    pub fn misfits(&self) -> &[[u32; 3]] {
+        &self.misfits
+    }
+
     /// Adds a vertex without a star.
     pub fn add_vertex(&mut self, position: [f32; 3]) {
         self.positions.push(position);
@@ -207,25 +214,35 @@ impl Tetrahedra {
     }
 }
 
-/// Which faces belong to one tetrahedron only. Faces meet in the list of their least vertex, so that nothing is hashed
-/// and no list is longer than a star. O(n).
-pub(super) fn boundary_faces(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<u8> {
-    let mut bits = vec![0u8; tetrahedra.len()];
-    let lists = FaceLists::new(tetrahedra, n_vertices);
-    for mut list in lists.into_lists() {
-        list.sort_unstable();
-        for same in list.chunk_by(|a, b| a.others == b.others) {
-            if let [face] = same {
-                bits[face.slot as usize] |= 1 << face.corner;
+/// How tetrahedra meet in their faces.
+pub(super) struct Sides {
+    /// Per tetrahedron, bit `i`: the face opposite corner `i` belongs to it alone.
+    pub boundary: Vec<u8>,
+    /// Faces that do not part two tetrahedra: of three or more, or of two on the same side.
+    pub misfits: Vec<[u32; 3]>,
+}
+
+impl Sides {
+    /// Faces meet in the list of their least vertex, so that nothing is hashed and no list is longer than a star. O(n).
+    pub(super) fn new(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Self {
+        let mut sides = Self { boundary: vec![0; tetrahedra.len()], misfits: vec![] };
+        for (v, mut list) in (0..).zip(FaceLists::new(tetrahedra, n_vertices).into_lists()) {
+            list.sort_unstable();
+            for same in list.chunk_by(|a, b| a.others == b.others) {
+                match same {
+                    [face] => sides.boundary[face.slot as usize] |= 1 << face.corner,
+                    [a, b] if a.is_even(tetrahedra) != b.is_even(tetrahedra) => {}
+                    _ => sides.misfits.push([v, same[0].others[0], same[0].others[1]]),
+                }
             }
         }
+        sides
     }
-    bits
 }
 
 /// The faces that belong to one tetrahedron only, seen counter-clockwise from outside. O(n).
 pub fn boundary_triangles(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<[u32; 3]> {
-    let bits = boundary_faces(tetrahedra, n_vertices);
+    let bits = Sides::new(tetrahedra, n_vertices).boundary;
     let faces = tetrahedra.iter().zip(bits).flat_map(|(corners, bits)| {
         (0..4).filter(move |i| bits >> i & 1 == 1).map(move |i| FACES[i].map(|j| corners[j]))
     });
@@ -240,6 +257,15 @@ pub(super) struct Face {
     pub slot: u32,
     /// The corner of the slot that it is opposite to.
     pub corner: u32,
+}
+
+impl Face {
+    /// Whether its corners are in ascending order, or an even number of swaps away from it, seen from outside its tetrahedron. Of two
+    /// neighbours, one sees the face between them so.
+    pub(super) fn is_even(&self, tetrahedra: &[[u32; 4]]) -> bool {
+        let [a, b, c] = FACES[self.corner as usize].map(|i| tetrahedra[self.slot as usize][i]);
+        (u8::from(a > b) + u8::from(b > c) + u8::from(a > c)) & 1 == 0
+    }
 }
 
 /// The faces of all tetrahedra by their least vertex.

@@ -104,7 +104,7 @@ impl State {
     /// A fusion that leaves the boundary as it is.
     fn try_at(&mut self, prey: &Prey, point: [f32; 3]) -> Option<Accepted> {
         let is_gathered = self.neighbourhood.gather(&self.mesh, prey, Some(point.map(f64::from)));
-        if !is_gathered || self.leaves_nothing() {
+        if !is_gathered || self.leaves_nothing() || !self.stays_apart(prey) {
             return None;
         }
         let error = self.error_before();
@@ -136,7 +136,9 @@ impl State {
             let p = point.map(f64::from);
             let Some(after) = self.neighbourhood.six_volumes(p) else { return };
             let six_volumes_lost = six_volumes - after;
-            if six_volumes_lost > self.six_volumes_left {
+            // Far from the origin rounding can make the mesh larger: by no more than it may become smaller.
+            let left = self.six_volumes_left - six_volumes_lost;
+            if left < 0.0 || left > 2.0 * self.six_volumes_to_lose {
                 return;
             }
             let Some(fit) = self.patch.fit(p).filter(|fit| fit.outside <= self.slack) else { return };
@@ -158,7 +160,15 @@ impl State {
                 consider(point, quadric.at(self.metric.local(point.map(f64::from))));
             }
         }
-        best
+        best.filter(|_| self.stays_apart(prey))
+    }
+
+    /// Whether no face gets a third tetrahedron. Where tetrahedra fill space once none does; they need not in a file.
+    fn stays_apart(&mut self, prey: &Prey) -> bool {
+        match prey.vertices().iter().find(|&&v| self.creases.kind(v) == Kind::Locked) {
+            Some(&locked) => self.neighbourhood.joins_nothing(&self.mesh, locked),
+            None => self.neighbourhood.is_ball(&self.mesh, prey),
+        }
     }
 
     /// Whether a whole component would go, as one can that has no volume. Components stay.

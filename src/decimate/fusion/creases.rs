@@ -4,6 +4,7 @@
 //! neighbours along one crease, and the fusion point is one of them. The neighbours along a crease are kept by the vertex they
 //! were at the start; whom that vertex has become is found by following its heirs.
 
+use super::links::irregular;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Tetrahedra;
 
@@ -18,7 +19,8 @@ pub(super) enum Kind {
     Crease,
     /// At any other feature edges.
     Corner,
-    /// Where the boundary is not a disk: never part of a fusion that changes the boundary.
+    /// Where the tetrahedra do not lie as around a point of space: never part of a fusion that changes the boundary, and it stays where
+    /// it is.
     Locked,
 }
 
@@ -52,6 +54,10 @@ impl Creases {
             Self { kinds: vec![Kind::Interior; n_vertices], along: vec![[NONE; 2]; n_vertices], heirs };
         for (v, rim) in (0..).zip(&rims).filter(|(_, rim)| !rim.is_empty()) {
             creases.classify(mesh, v, rim, cos_feature_angle);
+        }
+        for v in irregular(mesh, &rims) {
+            creases.kinds[v as usize] = Kind::Locked;
+            creases.along[v as usize] = [NONE; 2];
         }
         creases
     }

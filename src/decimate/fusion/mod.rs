@@ -10,6 +10,8 @@
 //! boundary are equal, and with positive volumes only, no place can be counted more than once. So inside the mesh the test against
 //! flipping is a topological test too, and an exact one. At the boundary it remains to see that the faces that go are a disk, that those
 //! that come are one over the same rim, and that they lie inside (`patch`); genus and components then stay what they are.
+//! Where the tetrahedra of a file do not fill space once, vertices stay where they are, and a face never gets a third tetrahedron
+//! (`links`).
 //!
 //! Reference: P. Chopra, J. Meyer: "Topology sensitive volume mesh simplification with planar quadric error metrics" (IASTED
 //! International Conference on Visualization, Imaging and Image Processing, 2003).
@@ -19,6 +21,7 @@ mod creases;
 mod edges;
 mod fields;
 mod fusion_point;
+mod links;
 mod metric;
 mod neighbourhood;
 mod options;

@@ -1,5 +1,6 @@
 //! Everything that a fusion touches: the tetrahedra that die with it, those that stretch, and the boundary between.
 
+use super::links::is_simple;
 use super::prey::Prey;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::{FACES, Tetrahedra};
@@ -50,6 +51,9 @@ pub(super) struct Neighbourhood {
     pub deleted: Vec<u32>,
     /// Boundary faces with a corner in the prey, seen from outside, such a corner first.
     pub faces: Vec<[u32; 3]>,
+    /// The last count in which each vertex was met.
+    met: Vec<u32>,
+    n_counts: u32,
 }
 
 impl Neighbourhood {
@@ -93,6 +97,36 @@ impl Neighbourhood {
                 self.faces.push(face);
             }
         }
+    }
+
+    /// Whether the bases, the link of the fusion point, are a sphere, or a disk where it is on the boundary. Where tetrahedra
+    /// overlap that were not together before, the fusion would join them, and a face get a third one. O(affected).
+    pub(super) fn is_ball(&mut self, mesh: &Tetrahedra, prey: &Prey) -> bool {
+        self.met.resize(mesh.n_vertices(), 0);
+        self.n_counts = self.n_counts.wrapping_add(1);
+        let mut n_vertices = 0;
+        for v in self.affected.iter().flat_map(|affected| affected.base) {
+            let last = std::mem::replace(&mut self.met[v as usize], self.n_counts);
+            n_vertices += usize::from(last != self.n_counts);
+        }
+        let on_rim = |&[_, b, c]: &[u32; 3]| !prey.contains(b) && !prey.contains(c);
+        let n_rim = self.faces.iter().filter(|&face| on_rim(face)).count();
+        is_simple(n_vertices, self.affected.len(), n_rim)
+    }
+
+    /// Whether a fusion at the place of `v`, whose surroundings need be no ball, leaves each face there with two tetrahedra at most, or
+    /// with as many as it had. O(affected log affected).
+    pub(super) fn joins_nothing(&mut self, mesh: &Tetrahedra, v: u32) -> bool {
+        let mut sides: Vec<([u32; 2], bool)> = Vec::with_capacity(3 * self.affected.len());
+        for Affected { slot, corner, base: [a, b, c], .. } in &self.affected {
+            let is_old = mesh.get(*slot).is_some_and(|corners| corners[*corner] == v);
+            sides.extend([[a, b], [b, c], [a, c]].map(|[p, q]| ([*p.min(q), *p.max(q)], is_old)));
+        }
+        sides.sort_unstable();
+        sides.chunk_by(|(a, _), (b, _)| a == b).all(|same| {
+            let n_before = same.iter().filter(|&&(_, is_old)| is_old).count();
+            same.len() <= n_before.max(2)
+        })
     }
 
     /// Six times the volume of all affected tetrahedra with the fusion point at `p`, or `None` where one of them flips.

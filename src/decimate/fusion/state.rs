@@ -33,6 +33,8 @@ pub(super) struct State {
     pub neighbourhood: Neighbourhood,
     pub patch: Patch,
     pub n_fusions: usize,
+    /// Six times the volume that may be lost in all.
+    pub six_volumes_to_lose: f64,
     /// Six times the volume that may be lost still.
     pub six_volumes_left: f64,
     /// How far a point may be outside by rounding alone.
@@ -75,6 +77,7 @@ impl State {
         let metric = Metric::new(&tetrahedra, midpoint(low, high), n_scaled, &scaled);
         let recorder = Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding);
         let six_volumes: f64 = mesh.tetrahedra.iter().map(|&t| mesh.six_volumes(t)).sum();
+        let six_volumes_to_lose = options.volume_loss * six_volumes.abs();
         Self {
             creases: Creases::new(&tetrahedra, cos_feature_angle),
             recorder,
@@ -83,7 +86,8 @@ impl State {
             quadric_distances: vec![0.0],
             field_deviations: vec![vec![0.0]; fields.len()],
             slack: SLACK * max(low.map(f64::abs), high.map(f64::abs)).into_iter().fold(0.0, f64::max),
-            six_volumes_left: options.volume_loss * six_volumes.abs(),
+            six_volumes_to_lose,
+            six_volumes_left: six_volumes_to_lose,
             max_error: max_error.unwrap_or(f64::INFINITY),
             fine_error: FINE_ERROR * length(sub(high, low)),
             mesh: tetrahedra,
