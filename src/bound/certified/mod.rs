@@ -31,7 +31,7 @@ mod transfer;
 
 use super::Replacement;
 use crate::geometry::vector::{length, max, min, widen};
-use crate::mesh::{Hole, Renumbering, Surface, TooMany, check_places};
+use crate::mesh::{Hole, MAX_VALENCE, Renumbering, Surface, TooMany, check_places};
 use chains::Chains;
 use contents::Contents;
 use source::SourceEdges;
@@ -41,6 +41,9 @@ pub use transfer::{Change, Transfer};
 /// How many times the limit a displacement is followed up. The filling was chosen to be within the limit, so that little is
 /// learned from going on for long.
 pub const REACH: f64 = 1.3;
+
+/// So many of the covered vertices are asked whether a source edge leads from them to the one removed.
+const MANY: usize = 16;
 
 /// No corner, of a vertex that is removed or that is not.
 const NOT_ON_RIM: u8 = u8::MAX;
@@ -170,6 +173,26 @@ impl Certified {
     pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = &'a [u32]> + Clone {
         let mapped = hole.slots.iter().map(|&slot| self.contents.vertices(slot));
         std::iter::once(std::slice::from_ref(&hole.removed)).chain(mapped)
+    }
+
+    /// Shows `take` the other ends of those source edges at the vertex of `hole` that have no chain, each once: ring vertices, with
+    /// their places on the ring, or vertices mapped into the star. Of many edges, or to many vertices in the star, some are left out.
+    /// O(valence), but O(edges) at a hub.
+    pub fn for_each_unchained(&self, hole: &Hole, mut take: impl FnMut(u32, Option<usize>)) {
+        let v = hole.removed;
+        let Self { source, chains, contents, .. } = self;
+        let unchained_up = source.up(v).filter(|&(edge, _)| !chains.has(edge));
+        for (_, high) in unchained_up.take(MAX_VALENCE) {
+            take(high, hole.ring.iter().position(|&r| r == high));
+        }
+        let corners = hole.ring.iter().enumerate().map(|(at, &r)| (r, Some(at)));
+        let covered = hole.slots.iter().flat_map(|&slot| contents.vertices(slot)).map(|&x| (x, None));
+        for (low, corner) in corners.chain(covered.take(MANY)).filter(|&(other, _)| other < v) {
+            let is_end = source.edge(low, v).is_some_and(|edge| !chains.has(edge));
+            if is_end {
+                take(low, corner);
+            }
+        }
     }
 
     fn is_alive(&self, v: u32) -> bool {

@@ -17,6 +17,9 @@ pub struct SourceEdges {
 /// Edges between two whose lower end is written down.
 const BLOCK: usize = 16;
 
+/// So few edges are gone through one by one.
+const FEW: usize = 8;
+
 /// More edges up from a vertex than this are not gone through for the sake of a few.
 const HUB: usize = 64;
 
@@ -84,10 +87,16 @@ impl SourceEdges {
     }
 
     /// The edge from `low` up to `high`. O(log edges).
-    fn edge(&self, low: u32, high: u32) -> Option<u32> {
+    #[inline]
+    pub fn edge(&self, low: u32, high: u32) -> Option<u32> {
         let start = self.first_up[low as usize];
         let highs = &self.highs[start as usize..][..self.n_up(low)];
-        highs.binary_search(&high).ok().map(|at| start + index(at))
+        let found = if highs.len() <= FEW {
+            highs.iter().position(|&other| other == high)
+        } else {
+            highs.binary_search(&high).ok()
+        };
+        found.map(|at| start + index(at))
     }
 }
 

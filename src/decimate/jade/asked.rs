@@ -35,21 +35,17 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Asks the source vertices of the given lists about fillings of `hole`. Returns whether it can be filled as well as can be: not
-    /// when it has more than [`MAX_CORNERS`] corners or no average plane. O(ring pairs) for each that is asked.
+    /// Asks the source vertices of the given lists about fillings of `hole`, whose average plane has the normal `up` that is not zero. At
+    /// most [`MAX_CORNERS`] corners. O(ring pairs) for each that is asked.
     pub fn gather<'a>(
         &mut self,
         surface: &Surface,
         hole: &Hole,
+        up: Vector,
         lists: impl Iterator<Item = &'a [u32]> + Clone,
-    ) -> bool {
-        let normal = hole.average_normal();
-        let size_sq = length_sq(normal);
-        if hole.n_ring() > MAX_CORNERS || size_sq <= 0.0 || !size_sq.is_finite() {
-            return false;
-        }
-        let size = size_sq.sqrt();
-        let (plane, unit) = (Plane::new(scale(normal, 1.0 / size)), 1.0 / size.sqrt());
+    ) {
+        let size = length_sq(up).sqrt();
+        let (plane, unit) = (Plane::new(scale(up, 1.0 / size)), 1.0 / size.sqrt());
         let flatten = |p: Vector| plane.project(p, hole.apex).map(|x| unit * x);
         self.ring.clear();
         self.ring.extend(hole.points.iter().map(|&p| flatten(p)));
@@ -57,7 +53,6 @@ impl Asked {
         choose(lists, |v| self.points.push(surface.origin(v)));
         self.find_sides(flatten);
         self.far = 0;
-        true
     }
 
     /// Twice the area of a triangle of ring indices in the average plane, negative when it faces away.

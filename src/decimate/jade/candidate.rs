@@ -1,8 +1,7 @@
 //! One vertex as a candidate for removal: its hole and the filling.
 
-use super::asked::Asked;
 use super::classify::{Class, classify};
-use super::fit::{Fitting, fit};
+use super::fit::{FitBuffers, Fitting, fit};
 use super::flip::flip_edges;
 use super::triangulate::{Polygons, triangulate};
 use crate::bound::certified::images::Image;
@@ -43,7 +42,7 @@ pub struct Scratch {
     /// Its filling.
     pub filling: Filling,
     polygons: Polygons,
-    asked: Asked,
+    fit: FitBuffers,
     /// Buffers for carrying the certified map along.
     pub transfer: Transfer,
     /// What is mapped onto the star of a vertex that may move.
@@ -95,14 +94,10 @@ fn fill_best(
     limits: Limits,
     scratch: &mut Scratch,
 ) -> Result<(), Verdict> {
-    let Scratch { hole, filling, polygons, asked, .. } = scratch;
+    let Scratch { hole, filling, polygons, fit: buffers, .. } = scratch;
     let surface = situation.surface;
     let limit_sq = limits.global * limits.global;
-    let fitted_sq = asked
-        .gather(surface, hole, certified.vertices_in(hole))
-        .then(|| fit(Fitting { surface, hole, class, limit_sq }, asked, polygons, filling))
-        .flatten();
-    match fitted_sq {
+    match fit(Fitting { surface, certified, hole, class, limit_sq }, buffers, filling) {
         Some(fitted_sq) if fitted_sq > limit_sq => {
             Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
         }

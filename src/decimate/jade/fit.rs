@@ -1,16 +1,18 @@
 //! The filling that lies nearest to the input: the optimal triangulation, each triangle scored by the input vertices that
-//! it would cover.
+//! it would cover and each edge inside by the input edges that would cross it.
 //!
 //! The paper triangulates first and flips edges afterwards. Where the bound is a true distance to the input, asking for
 //! the best filling outright costs little more, since each of the few possible triangles is scored once, and it needs
 //! a quarter fewer triangles at the same error.
 
-use super::asked::Asked;
+use super::asked::{Asked, MAX_CORNERS};
 use super::classify::Class;
-use super::optimal::triangulate_optimally;
-use super::triangulate::{Polygons, collect_part, ring_index};
+use super::crossings::Crossings;
+use super::optimal::{EdgeScores, triangulate_optimally};
+use super::triangulate::{collect_part, ring_index};
 use super::validity::{WORST_ASPECT, worst_star_aspect};
 use crate::bound::REACH;
+use crate::bound::certified::Certified;
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
 use crate::mesh::{Filling, Hole, Surface};
@@ -20,6 +22,8 @@ use crate::mesh::{Filling, Hole, Surface};
 pub struct Fitting<'a> {
     /// The mesh around it.
     pub surface: &'a Surface,
+    /// What is mapped into it.
+    pub certified: &'a Certified,
     /// The hole.
     pub hole: &'a Hole,
     /// Whether it is to be split.
@@ -28,24 +32,62 @@ pub struct Fitting<'a> {
     pub limit_sq: f64,
 }
 
+/// Buffers for one hole at a time.
+#[derive(Clone, Debug, Default)]
+pub struct FitBuffers {
+    crossings: Crossings,
+    asked: Asked,
+    parts: [Part; 2],
+}
+
+/// A polygon to be filled.
+#[derive(Clone, Debug, Default)]
+struct Part {
+    corners: Vec<u8>,
+    edges: EdgeScores,
+}
+
 /// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to the points
-/// covered, as far as they are asked. Returns the largest distance among those and the triangles they lie over, squared, or a lower
-/// bound of it above [`REACH`] times the limit; `None` where there is no such filling or the hole is too large.
-pub fn fit(
-    fitting: Fitting<'_>,
-    asked: &mut Asked,
-    polygons: &mut Polygons,
-    filling: &mut Filling,
-) -> Option<f64> {
-    let Fitting { surface, hole, limit_sq, .. } = fitting;
+/// covered, as far as they are asked, and to the edges that cross from one to another. Returns the largest of these distances,
+/// squared, or a lower bound of it above the limit, without a filling; `None` where there is no such filling, the hole is too large or
+/// has no average plane.
+pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling) -> Option<f64> {
+    let Fitting { surface, certified, hole, class, limit_sq } = fitting;
+    let up = hole.average_normal();
+    let size_sq = length_sq(up);
     let is_tetrahedron = hole.closed && hole.n_ring() == 3 && surface.has_triangle(triple(hole));
-    if is_tetrahedron {
+    if hole.n_ring() > MAX_CORNERS || size_sq <= 0.0 || !size_sq.is_finite() || is_tetrahedron {
         return None;
     }
+    let FitBuffers { crossings, asked, parts } = buffers;
+    let split = match class {
+        Class::InteriorEdge(ends) => Some(ends.map(ring_index)),
+        _ => None,
+    };
+    collect_parts(hole, split, parts, filling);
+    crossings.gather(surface, hole, up, certified);
+    let crossing_sq = |edge| crossings.largest_sq(hole, edge);
+    let is_inside = |&[i, j]: &[u8; 2]| !hole.is_ring_edge(i.into(), j.into());
+    let split_sq = split.filter(is_inside).map_or(0.0, crossing_sq);
+    let enough_sq = REACH * REACH * limit_sq;
+    let worst_sq = parts.each_mut().map(|Part { corners, edges }| edges.set(corners, enough_sq, crossing_sq));
+    let least_sq = worst_sq.into_iter().fold(split_sq, f64::max);
+    if least_sq > limit_sq {
+        return Some(least_sq);
+    }
+    asked.gather(surface, hole, up, certified.vertices_in(hole));
+    let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
-    let mut taken = vec![];
+    let mut taken: Vec<[u8; 2]> = vec![];
     loop {
-        let worst_sq = fit_around(fitting, &taken, asked, polygons, filling)?;
+        let score = |triangle: [u8; 3], cutoff: f64| {
+            if taken.iter().any(|edge| edge.iter().all(|corner| triangle.contains(corner))) {
+                return f64::INFINITY;
+            }
+            largest_distance_sq(hole, asked, triangle, worst_aspect, cutoff.min(enough_sq))
+        };
+        let filled_sq = fill_parts(parts, enough_sq, score, filling)?;
+        let worst_sq = filled_sq.max(split_sq);
         if worst_sq > limit_sq {
             return Some(worst_sq);
         }
@@ -57,42 +99,38 @@ pub fn fit(
     }
 }
 
-/// The same without the edges between ring vertices that are taken.
-fn fit_around(
-    fitting: Fitting<'_>,
-    taken: &[[u8; 2]],
-    asked: &mut Asked,
-    polygons: &mut Polygons,
+/// The polygons to be filled: one, or two on either side of the edge that splits the hole.
+fn collect_parts(hole: &Hole, split: Option<[u8; 2]>, parts: &mut [Part; 2], filling: &mut Filling) {
+    let whole = [0, ring_index(hole.n_ring() - 1)];
+    let [from, to] = split.unwrap_or(whole);
+    filling.part_starts = [from, to];
+    let [first, second] = parts.each_mut().map(|part| &mut part.corners);
+    collect_part(hole, from.into(), to.into(), first);
+    second.clear();
+    if split.is_some() {
+        collect_part(hole, to.into(), from.into(), second);
+    }
+}
+
+/// Fills each part as well as can be; the worst score, or a lower bound of it above `enough`.
+fn fill_parts(
+    parts: &[Part; 2],
+    enough: f64,
+    mut score: impl FnMut([u8; 3], f64) -> f64,
     filling: &mut Filling,
 ) -> Option<f64> {
-    let Fitting { hole, class, limit_sq, .. } = fitting;
-    let enough_sq = REACH * REACH * limit_sq;
-    filling.triangles.clear();
-    let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
-    let mut score = |triangle: [u8; 3], cutoff: f64| {
-        if taken.iter().any(|edge| edge.iter().all(|corner| triangle.contains(corner))) {
-            return f64::INFINITY;
+    let Filling { triangles, n_first_part, .. } = filling;
+    triangles.clear();
+    let mut fill = |Part { corners, edges }: &Part| {
+        if corners.len() < 3 {
+            return Some(0.0);
         }
-        largest_distance_sq(hole, asked, triangle, worst_aspect, cutoff.min(enough_sq))
+        triangulate_optimally(corners, enough, edges, &mut score, triangles)
     };
-    let (from, to, is_split) = match class {
-        Class::InteriorEdge([from, to]) => (from, to, true),
-        _ => (0, hole.n_ring() - 1, false),
-    };
-    filling.part_starts = [ring_index(from), ring_index(to)];
-    let mut fill_part = |from, to, filling: &mut Filling| {
-        collect_part(hole, from, to, &mut polygons.part);
-        let is_edge = polygons.part.len() < 3;
-        if is_edge {
-            Some(0.0)
-        } else {
-            triangulate_optimally(&polygons.part, enough_sq, &mut score, &mut filling.triangles)
-        }
-    };
-    let first = fill_part(from, to, filling)?;
-    filling.n_first_part = filling.triangles.len();
-    let second = if is_split { fill_part(to, from, filling)? } else { 0.0 };
-    Some(first.max(second))
+    let [first, second] = parts;
+    let worst = [fill(first)?, fill(second)?];
+    *n_first_part = first.corners.len().saturating_sub(2);
+    Some(worst[0].max(worst[1]))
 }
 
 /// Largest squared distance to a triangle among the points over it, or the first above `cutoff`; infinite where the

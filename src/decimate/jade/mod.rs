@@ -10,6 +10,7 @@ pub mod asked;
 pub mod best_place;
 pub mod candidate;
 pub mod classify;
+pub mod crossings;
 pub mod decimation;
 pub mod ears;
 pub mod fit;

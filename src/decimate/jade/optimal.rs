@@ -23,14 +23,44 @@ impl Score {
     }
 }
 
+/// Scores of the edges inside a polygon, known where they matter, and what they alone let any triangulation of each part of it have
+/// as its worst.
+#[derive(Clone, Debug, Default)]
+pub struct EdgeScores {
+    own: [[f64; MAX_CORNERS]; MAX_CORNERS],
+    least: [[f64; MAX_CORNERS]; MAX_CORNERS],
+}
+
+impl EdgeScores {
+    /// Makes these the ones of the polygon `corners`, which are at most [`MAX_CORNERS`], as far as they are needed to tell whether a
+    /// triangulation is better than `enough`. `score` gets the ends of an edge. Returns a lower bound of the worst edge of every
+    /// triangulation, exact up to `enough`.
+    pub fn set(&mut self, corners: &[u8], enough: f64, score: impl Fn([u8; 2]) -> f64) -> f64 {
+        let Self { own, least } = self;
+        let n = corners.len();
+        for span in 2..n {
+            for i in 0..n - span {
+                let j = i + span;
+                let beside = (i + 1..j).map(|k| least[i][k].max(least[k][j])).fold(f64::INFINITY, f64::min);
+                let is_inside = span + 1 < n;
+                own[i][j] = if is_inside && beside <= enough { score([corners[i], corners[j]]) } else { 0.0 };
+                least[i][j] = beside.max(own[i][j]);
+            }
+        }
+        if n < 3 { 0.0 } else { least[0][n - 1] }
+    }
+}
+
 /// Triangulates the polygon `corners` with the least worst `score` and appends the triangles to `triangles`.
 ///
 /// `score` gets a triangle and a cutoff, above which any value will do. It gives infinity for a triangle that may not be
-/// used, and is never negative. Returns the worst score, or a lower bound of it above `enough`, with any triangles; or
-/// `None` where every triangulation has a forbidden triangle. Panics never; polygons above [`MAX_CORNERS`] get `None`.
+/// used, and is never negative; each edge inside has a score too. Returns the worst score, or a lower bound of it above
+/// `enough`, without triangles; or `None` where every triangulation has a forbidden triangle. Panics never; polygons above
+/// [`MAX_CORNERS`] get `None`.
 pub fn triangulate_optimally(
     corners: &[u8],
     enough: f64,
+    edges: &EdgeScores,
     mut score: impl FnMut([u8; 3], f64) -> f64,
     triangles: &mut Vec<[u8; 3]>,
 ) -> Option<f64> {
@@ -44,6 +74,12 @@ pub fn triangulate_optimally(
         for i in 0..n - span {
             let j = i + span;
             best[i][j] = IMPOSSIBLE;
+            let least = edges.least[i][j];
+            if least > enough {
+                best[i][j] = Score { worst: least, sum: least };
+                continue;
+            }
+            let across = edges.own[i][j];
             for k in i + 1..j {
                 let sides = best[i][k].with(best[k][j]);
                 if sides.worst >= best[i][j].worst {
@@ -55,6 +91,7 @@ pub fn triangulate_optimally(
                 } else {
                     score([corners[i], corners[k], corners[j]], best[i][j].worst)
                 };
+                let own = own.max(across);
                 let whole = sides.with(Score { worst: own, sum: own });
                 if whole < best[i][j] {
                     (best[i][j], apex[i][j]) = (whole, k);
@@ -66,7 +103,9 @@ pub fn triangulate_optimally(
     if !worst.is_finite() {
         return None;
     }
-    collect(corners, &apex, triangles);
+    if worst <= enough {
+        collect(corners, &apex, triangles);
+    }
     Some(worst)
 }
 
@@ -112,35 +151,81 @@ mod tests {
         (i + 1..j).flat_map(join).collect()
     }
 
+    /// Largest score among the triangles of a triangulation and the edges inside it.
+    fn worst(
+        triangles: &[[u8; 3]],
+        n: u8,
+        score: impl Fn([u8; 3]) -> f64,
+        edge: impl Fn([u8; 2]) -> f64,
+    ) -> f64 {
+        let outer = |&[i, j]: &[u8; 2]| j == i + 1 || (i == 0 && j == n - 1);
+        let inner =
+            triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [a, c]]).filter(|side| !outer(side));
+        triangles.iter().map(|&t| score(t)).chain(inner.map(edge)).fold(0.0, f64::max)
+    }
+
+    fn of_triangle(scores: &[u32], [a, b, c]: [u8; 3]) -> f64 {
+        f64::from(scores[usize::from(a) * 64 + usize::from(b) * 8 + usize::from(c)])
+    }
+
+    fn of_edge(scores: &[u32], [i, j]: [u8; 2]) -> f64 {
+        f64::from(scores[usize::from(i) * 8 + usize::from(j)])
+    }
+
     proptest! {
         #[test]
-        fn what_is_bad_enough_is_not_looked_into(n in 3_u8..8, enough in 0_u32..50, scores in prop::collection::vec(0_u32..50, 512)) {
-            let score = |[a, b, c]: [u8; 3]| {
-                f64::from(scores[usize::from(a) * 64 + usize::from(b) * 8 + usize::from(c)])
-            };
+        fn what_is_bad_enough_is_not_looked_into(
+            n in 3_u8..8,
+            enough in 0_u32..50,
+            scores in prop::collection::vec(0_u32..50, 512),
+            edge_scores in prop::collection::vec(0_u32..50, 64),
+        ) {
             let corners: Vec<u8> = (0..n).collect();
-            let best = |enough: f64| triangulate_optimally(&corners, enough, |t, _| score(t), &mut vec![]).unwrap();
+            let best = |enough: f64| {
+                let mut edges = EdgeScores::default();
+                edges.set(&corners, enough, |edge| of_edge(&edge_scores, edge));
+                triangulate_optimally(&corners, enough, &edges, |t, _| of_triangle(&scores, t), &mut vec![]).unwrap()
+            };
             let (least, found) = (best(f64::INFINITY), best(enough.into()));
             prop_assert!(found == least || (enough as f64) < found && found <= least);
         }
 
         #[test]
-        fn no_triangulation_is_better(n in 3_u8..8, scores in prop::collection::vec(0_u32..50, 512)) {
-            let score = |[a, b, c]: [u8; 3]| {
-                let value = scores[usize::from(a) * 64 + usize::from(b) * 8 + usize::from(c)];
-                if value > 40 { f64::INFINITY } else { f64::from(value) }
-            };
+        fn no_triangulation_is_better(
+            n in 3_u8..8,
+            scores in prop::collection::vec(0_u32..50, 512),
+            edge_scores in prop::collection::vec(0_u32..40, 64),
+        ) {
+            let score = |triangle| { let score = of_triangle(&scores, triangle); if score > 40.0 { f64::INFINITY } else { score } };
+            let edge = |edge| of_edge(&edge_scores, edge);
             let corners: Vec<u8> = (0..n).collect();
-            let worst = |triangles: &[[u8; 3]]| triangles.iter().map(|&t| score(t)).fold(0.0, f64::max);
-            let least = all(0, n - 1).iter().map(|t| worst(t)).fold(f64::INFINITY, f64::min);
+            let least = all(0, n - 1).iter().map(|t| worst(t, n, score, edge)).fold(f64::INFINITY, f64::min);
+            let mut edges = EdgeScores::default();
+            edges.set(&corners, f64::INFINITY, edge);
             let mut triangles = vec![];
-            match triangulate_optimally(&corners, f64::INFINITY, |triangle, _| score(triangle), &mut triangles) {
+            match triangulate_optimally(&corners, f64::INFINITY, &edges, |triangle, _| score(triangle), &mut triangles) {
                 None => prop_assert!(least.is_infinite()),
                 Some(found) => {
                     prop_assert_eq!(found, least);
-                    prop_assert_eq!(worst(&triangles), least);
+                    prop_assert_eq!(worst(&triangles, n, score, edge), least);
                     prop_assert_eq!(triangles.len(), usize::from(n) - 2);
                 }
+            }
+        }
+
+        /// One set of scores after another, since they are written over the ones before.
+        #[test]
+        fn edges_alone_bound_every_triangulation(
+            polygons in prop::collection::vec((1_u8..8, prop::collection::vec(0_u32..50, 64)), 1..4),
+            enough in 0_u32..50,
+        ) {
+            let mut edges = EdgeScores::default();
+            for (n, scores) in polygons {
+                let corners: Vec<u8> = (0..n).collect();
+                let found = edges.set(&corners, enough.into(), |edge| of_edge(&scores, edge));
+                let least = |t: &Vec<[u8; 3]>| worst(t, n, |_| 0.0, |edge| of_edge(&scores, edge));
+                let least = all(0, n - 1).iter().map(least).fold(f64::INFINITY, f64::min);
+                prop_assert!(found == least || f64::from(enough) < found && found <= least);
             }
         }
     }

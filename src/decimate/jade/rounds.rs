@@ -21,10 +21,6 @@ const CHUNK: usize = 32;
 /// Removals that are planned before the first of them is carried out.
 const BATCH: usize = 512;
 
-/// A vertex whose star changed is tried again within an iteration, once nothing else is left, if it needed no more than this
-/// many times the limit before.
-const RETRY: f64 = 1.3;
-
 /// The part of a ceiling's worklist that is left to the next ceiling: rounds over a few candidates each would end it.
 const FEW: usize = 5;
 
@@ -41,7 +37,7 @@ struct Candidates {
     open: Vec<u32>,
     /// Vertices below the limits of this iteration and above the ceiling.
     waiting: Vec<u32>,
-    /// Vertices above the limits of this iteration whose star has changed since they were tried.
+    /// Vertices above the last limits whose star has changed since they were tried: no later iteration will try them again.
     changed: Vec<u32>,
 }
 
@@ -69,10 +65,11 @@ pub fn run(
     let mut limits = thresholds.limits();
     loop {
         candidates.admit(limits, &decimation.surface);
+        let is_last = thresholds.is_last();
         for ceiling in thresholds.ceilings() {
             let waiting = std::mem::take(&mut candidates.waiting);
             let mut worklist = candidates.sort_out(limits, ceiling, waiting);
-            let few = if thresholds.is_last() { 0 } else { worklist.len() / FEW };
+            let few = if is_last { 0 } else { worklist.len() / FEW };
             while worklist.len() > few {
                 if !go_on(decimation) {
                     return Err(Unfinished::Stopped);
@@ -82,11 +79,10 @@ pub fn run(
                 let under = Limits { global: ceiling, ..limits };
                 let touched =
                     remove_all(decimation, &mut candidates, under, &picked).map_err(Unfinished::TooLarge)?;
-                let next = candidates.touch(limits, touched).into_iter().chain(picked).chain(others);
+                let next = candidates.touch(limits, is_last, touched).into_iter().chain(picked).chain(others);
                 worklist = candidates.sort_out(limits, ceiling, next.collect());
-                if worklist.len() <= few && ceiling >= limits.global {
-                    let retry = if thresholds.is_last() { f64::INFINITY } else { RETRY };
-                    worklist.extend(candidates.take_changed(retry * limits.local));
+                if worklist.is_empty() && ceiling >= limits.global {
+                    worklist.extend(candidates.take_changed());
                 }
             }
             candidates.waiting.extend(worklist);
@@ -137,29 +133,25 @@ impl Candidates {
         }
     }
 
-    /// Those above the limits whose star changed since they were tried, as far as they needed no more than `most`; with nothing
-    /// known of them. In ascending order, each once.
-    fn take_changed(&mut self, most: f64) -> Vec<u32> {
+    /// Those above the last limits whose star changed since they were tried, with nothing known of them. In ascending order, each once.
+    fn take_changed(&mut self) -> Vec<u32> {
         let mut changed = std::mem::take(&mut self.changed);
         changed.par_sort_unstable();
         changed.dedup();
-        changed.retain(|&v| {
-            let needed = self.needed[v as usize];
-            needed.is_finite() && f64::from(needed) <= most
-        });
+        changed.retain(|&v| self.needed[v as usize].is_finite());
         changed.iter().for_each(|&v| self.forget(v));
         changed
     }
 
     /// Takes note that the stars of `touched` have changed; gives those that may be tried under these limits.
-    fn touch(&mut self, limits: Limits, mut touched: Vec<u32>) -> Vec<u32> {
+    fn touch(&mut self, limits: Limits, is_last: bool, mut touched: Vec<u32>) -> Vec<u32> {
         touched.retain(|&v| {
             let needed = self.needed[v as usize];
             if needed.is_infinite() {
                 self.forget(v);
             }
             let is_above = needed.is_finite() && f64::from(needed) > limits.local;
-            if is_above {
+            if is_above && is_last {
                 self.changed.push(v);
             }
             !is_above

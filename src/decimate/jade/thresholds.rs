@@ -14,7 +14,7 @@ use crate::bound::Limits;
 const START: f64 = 0.01;
 
 /// Ceilings per iteration; `docs/builder-roads.md` says what they are worth.
-const CEILINGS: i32 = 16;
+const CEILINGS: i32 = 8;
 
 /// The limits of one iteration after another.
 #[derive(Clone, Copy, Debug)]
