@@ -22,7 +22,7 @@ const CHUNK: usize = 32;
 const BATCH: usize = 512;
 
 /// The part of a ceiling's worklist that is left to the next ceiling: rounds over a few candidates each would end it.
-const FEW: usize = 5;
+const FEW: usize = 3;
 
 /// What was last found of each vertex.
 struct Candidates {
