@@ -7,8 +7,8 @@ use crate::mesh::{Filling, Hole};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Location {
     half_spaces: Vec<HalfSpace>,
-    /// Where the half-spaces of each triangle end.
-    ends: Vec<usize>,
+    /// Where the half-spaces of each triangle start, and where all end.
+    starts: Vec<usize>,
 }
 
 /// The points with `across . point >= level`.
@@ -23,7 +23,8 @@ impl Location {
     pub(super) fn build(&mut self, hole: &Hole, filling: &Filling) {
         let up = hole.average_normal();
         self.half_spaces.clear();
-        self.ends.clear();
+        self.starts.clear();
+        self.starts.push(0);
         for &[a, b, c] in &filling.triangles {
             for [i, j] in [[a, b], [b, c], [c, a]].map(|edge| edge.map(usize::from)) {
                 if !hole.is_ring_edge(i, j) {
@@ -32,18 +33,22 @@ impl Location {
                     self.half_spaces.push(HalfSpace { across, level: dot(across, from) });
                 }
             }
-            self.ends.push(self.half_spaces.len());
+            self.starts.push(self.half_spaces.len());
         }
     }
 
-    /// The first triangle whose inner edges all have `p` on their left.
+    /// A triangle whose inner edges all have `p` on their left: `guess` where that is one, or else the first.
     #[inline]
-    pub(super) fn find(&self, p: Vector) -> Option<usize> {
-        let mut start = 0;
-        self.ends.iter().position(|&end| {
-            let of_triangle = &self.half_spaces[start..end];
-            start = end;
-            of_triangle.iter().all(|&HalfSpace { across, level }| dot(across, p) >= level)
-        })
+    pub(super) fn find(&self, p: Vector, guess: usize) -> Option<usize> {
+        if self.holds(guess, p) {
+            return Some(guess);
+        }
+        (0..self.starts.len() - 1).find(|&triangle| self.holds(triangle, p))
+    }
+
+    #[inline]
+    fn holds(&self, triangle: usize, p: Vector) -> bool {
+        let of_triangle = &self.half_spaces[self.starts[triangle]..self.starts[triangle + 1]];
+        of_triangle.iter().all(|&HalfSpace { across, level }| dot(across, p) >= level)
     }
 }

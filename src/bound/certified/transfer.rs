@@ -154,13 +154,15 @@ impl Transfer {
         labels.start(surface.n_vertices());
         self.location.build(hole, filling);
         let mut largest_sq = 0.0_f64;
+        let mut before = 0;
         for &v in covered {
             let p = surface.origin(v);
             let (label, distance_sq) = match removal.rim_edge(v) {
                 Some(i) => (tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
-                None => removal.near(p, self.location.find(p), limit_sq.max(largest_sq)),
+                None => removal.near(p, self.location.find(p, before.into()), limit_sq.max(largest_sq)),
             };
             labels.set(v, label);
+            before = label;
             largest_sq = largest_sq.max(distance_sq);
             if largest_sq > reach_sq {
                 break;
