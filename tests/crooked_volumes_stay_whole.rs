@@ -5,18 +5,16 @@
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
 
-#[path = "support/synthetic.rs"]
-#[allow(dead_code, unreachable_pub, clippy::cast_sign_loss, reason = "only its random numbers are taken")]
-mod synthetic;
+mod support;
 
 use nephrite::generate::{ball_volume, box_volume};
 use nephrite::reprove::ErrorTable;
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{BuildError, Lod, TetrahedronMesh, VolumeOptions, build_volume};
+use nephrite::store::Provenance;
+use nephrite::{BuildError, TetrahedronMesh, VolumeOptions, build_volume};
 use std::collections::BTreeSet;
-use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
-use synthetic::Random;
+use support::served::served;
+use support::synthetic::Random;
 
 /// A box or a ball, as crooked as the numbers say.
 fn volume(random: &mut Random) -> TetrahedronMesh {
@@ -73,10 +71,7 @@ fn check(name: &str, mesh: &TetrahedronMesh, options: &VolumeOptions) -> u32 {
         build => build.unwrap(),
     };
     let provenance = Provenance { bound: "boundary".into(), ..Provenance::default() };
-    let mut stream = Cursor::new(vec![]);
-    write_to(&mut stream, &build.mesh, &build.history, &provenance, &StoreOptions::default()).unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
+    let lod = served(&build.mesh, &build.history, &provenance);
     let table = ErrorTable::new(&lod).unwrap();
     let first = lod.at_level(0).to_volume().unwrap();
     // Repair rights what it can; the rest is as it came.

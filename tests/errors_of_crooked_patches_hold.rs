@@ -5,16 +5,15 @@
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
 
-#[path = "support/synthetic.rs"]
-#[allow(dead_code, unreachable_pub, clippy::cast_sign_loss, reason = "only its random numbers are taken")]
-mod synthetic;
+mod support;
 
 use nephrite::decimate::jade::{JadeOptions, Placement};
 use nephrite::reprove::ErrorTable;
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{Attribute, BuildError, BuildOptions, Lod, Method, ScalarType, TriangleMesh, build};
+use nephrite::store::Provenance;
+use nephrite::{Attribute, BuildError, BuildOptions, Method, ScalarType, TriangleMesh, build};
 use std::ops::ControlFlow::Continue;
-use synthetic::Random;
+use support::served::served;
+use support::synthetic::Random;
 
 /// How a patch is rolled up.
 #[derive(Clone, Copy)]
@@ -113,10 +112,7 @@ fn check(name: &str, mesh: &TriangleMesh, options: &BuildOptions, n: u32) -> u32
         certified_simplices: build.n_certified_triangles().map(|n| n as u64),
         ..Provenance::default()
     };
-    let mut stream = std::io::Cursor::new(vec![]);
-    write_to(&mut stream, &build.mesh, &build.history, &provenance, &StoreOptions::default()).unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
+    let lod = served(&build.mesh, &build.history, &provenance);
     let table = ErrorTable::new(&lod).unwrap();
     let last = (0..=table.last_certified()).rev().find(|&level| lod.at_level(level).n_triangles() > 0);
     let last = last.unwrap_or(0);

@@ -10,14 +10,14 @@ use nephrite::decimate::jade::{JadeOptions, Placement};
 use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::progressive_mesh::{ProgressiveMesh, encode};
 use nephrite::reprove::ErrorTable;
-use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::store::Provenance;
 use nephrite::{
-    Attribute, Bound, BuildOptions, Lod, Method, ScalarType, TriangleMesh, VolumeOptions, build,
-    build_volume, generate,
+    Attribute, Bound, BuildOptions, Method, ScalarType, TriangleMesh, VolumeOptions, build, build_volume,
+    generate,
 };
-use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
 use support::on_this_thread;
+use support::served::served;
 
 /// A bumpy icosahedron with one face open and one vertex of a second colour, with a flap at an edge that has two faces already, a
 /// triangle without area and one that occurs twice.
@@ -59,10 +59,7 @@ fn by_removals_and_by_collapses() {
         let bound = format!("{:?}", options.bound).to_lowercase();
         let n_certified = built.n_certified_triangles().map(|n| n as u64);
         let provenance = Provenance { bound, certified_simplices: n_certified, ..Provenance::default() };
-        let mut stream = Cursor::new(Vec::new());
-        write_to(&mut stream, &built.mesh, &built.history, &provenance, &StoreOptions::default()).unwrap();
-        let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-        lod.verify().unwrap();
+        let lod = served(&built.mesh, &built.history, &provenance);
         assert!(lod.n_levels() > 2, "{options:?}");
         if options.bound == Bound::Certified {
             let table = ErrorTable::new(&lod).unwrap();
@@ -82,11 +79,7 @@ fn by_fusions() {
     let _pool = on_this_thread();
     let built =
         build_volume(&generate::box_volume([2; 3]), &VolumeOptions::default(), &|_| Continue(())).unwrap();
-    let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, &built.mesh, &built.history, &Provenance::default(), &StoreOptions::default())
-        .unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
+    let lod = served(&built.mesh, &built.history, &Provenance::default());
     assert!(lod.n_levels() > 1);
     for level in 0..lod.n_levels() {
         lod.at_level(level).to_volume().unwrap().check().unwrap();

@@ -3,27 +3,25 @@
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod support;
+
 use nephrite::decimate::fusion::FusionOptions;
 use nephrite::generate::{ball_volume, box_volume};
 use nephrite::measure::{Verdict, check_within, measure_fields};
 use nephrite::reprove::{ErrorTable, ReproveError};
-use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::store::Provenance;
 use nephrite::{
     Attribute, Lod, ScalarType, TetrahedronMesh, TriangleMesh, VolumeBuild, VolumeOptions, build_volume,
     volume,
 };
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
 use std::path::PathBuf;
+use support::served::served;
 
 fn built(mesh: &TetrahedronMesh, options: &VolumeOptions) -> (VolumeBuild, Lod) {
     let build = build_volume(mesh, options, &|_| Continue(())).unwrap();
-    let mut stream = Cursor::new(Vec::new());
-    let options = StoreOptions::default();
-    write_to(&mut stream, &build.mesh, &build.history, &Provenance::default(), &options).unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
+    let lod = served(&build.mesh, &build.history, &Provenance::default());
     (build, lod)
 }
 
@@ -171,12 +169,7 @@ fn the_boundary_s_errors_are_proven_anew() {
     let input = ball_volume(8);
     let (build, _) = built(&input, &VolumeOptions::default());
     let provenance = |bound: &str| Provenance { bound: bound.to_owned(), ..Provenance::default() };
-    let lod = |bound| {
-        let mut stream = Cursor::new(Vec::new());
-        let options = StoreOptions::default();
-        write_to(&mut stream, &build.mesh, &build.history, &provenance(bound), &options).unwrap();
-        Lod::from_bytes(stream.get_ref()).unwrap()
-    };
+    let lod = |bound| served(&build.mesh, &build.history, &provenance(bound));
     let certified = lod("boundary");
     let table = ErrorTable::new(&certified).unwrap();
     for &level in &spread(&certified, 6) {

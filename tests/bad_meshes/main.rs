@@ -13,13 +13,17 @@ mod gltf;
 mod obj;
 mod off;
 mod ply;
+#[path = "../support/served.rs"]
+mod served;
 mod shapes;
 mod stl;
 
-use corpus::{Case, Cases, Corpus, served, told, variant};
+use corpus::{Case, Cases, Corpus, told, variant};
+use nephrite::store::Provenance;
 use nephrite::{BuildError, BuildOptions};
 use nephrite_formats::{MeshError, MeshFormat, read_mesh};
 use serde_json::json;
+use served::served;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow::Continue;
 use std::path::Path;
@@ -45,7 +49,7 @@ fn outcome(path: &Path) -> String {
         Err(error @ BuildError::NoTriangles { .. }) => return format!("refused: {}", variant(&error)),
         Err(error) => panic!("{}: {error}", path.display()),
     };
-    let lod = served(&build.mesh, &build.history);
+    let lod = served(&build.mesh, &build.history, &Provenance::default());
     let triangles = format!("{} triangles", lod.at_level(0).n_triangles());
     told(&triangles, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
 }

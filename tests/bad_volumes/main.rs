@@ -16,15 +16,19 @@ mod gmsh_binary;
 mod medit;
 mod meshb;
 mod plot3d;
+#[path = "../support/served.rs"]
+mod served;
 mod shapes;
 mod tetgen;
 mod vtk;
 mod vtu;
 
-use corpus::{Case, Cases, Corpus, served, told, variant, variants};
+use corpus::{Case, Cases, Corpus, told, variant, variants};
+use nephrite::store::Provenance;
 use nephrite::{BuildError, VolumeOptions, build_volume};
 use nephrite_formats::{MeshError, VolumeFormat, read_volume};
 use serde_json::json;
+use served::served;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow::Continue;
 use std::path::Path;
@@ -75,7 +79,7 @@ fn outcome(path: &Path) -> String {
         Err(error @ BuildError::NoTetrahedra { .. }) => return format!("refused: {}", variant(&error)),
         Err(error) => panic!("{}: {error}", path.display()),
     };
-    let lod = served(&build.mesh, &build.history);
+    let lod = served(&build.mesh, &build.history, &Provenance::default());
     let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_triangles());
     told(&tetrahedra, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
 }

@@ -3,11 +3,8 @@
 #![allow(unreachable_pub, reason = "a test file is no library")]
 #![allow(dead_code, reason = "each test takes what it needs")]
 
-use nephrite::store::{Provenance, StoreOptions, Vertices, write_to};
-use nephrite::{History, Lod};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// The name of a file and its bytes.
@@ -85,15 +82,6 @@ impl Corpus {
         }
         there
     }
-}
-
-/// The verified file that holds a history.
-pub fn served<'a, const CORNERS: usize>(mesh: impl Into<Vertices<'a>>, history: &History<CORNERS>) -> Lod {
-    let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions::default()).unwrap();
-    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    lod.verify().unwrap();
-    lod
 }
 
 /// What is told of a file that was not refused: what is served of it, every count of the reports that is not zero, and the

@@ -6,6 +6,7 @@
 
 pub mod damage;
 pub mod faulty;
+pub mod served;
 pub mod synthetic;
 
 use nephrite::history::{History, Levels};
