@@ -69,14 +69,14 @@ impl GlobalError {
         }
     }
 
-    /// Gives back memory that finished removals left behind; changes found before are no longer current.
+    /// Gives back memory that finished removals left behind.
     pub fn compact(&mut self) {
         if let Self::Certified(certified) = self {
             certified.compact();
         }
     }
 
-    /// Gives every slot its new number; changes found before are no longer current.
+    /// Gives every slot its new number; changes found before have the old ones.
     pub fn renumber_slots(&mut self, slots: &Renumbering) {
         match self {
             Self::Certified(certified) => certified.renumber_slots(slots),
@@ -84,36 +84,56 @@ impl GlobalError {
         }
     }
 
-    /// Whether a change found since the last [`Self::compact`] may still be applied.
-    pub fn is_current(&self, change: &Change) -> bool {
-        match (self, change) {
-            (Self::Certified(certified), Change::Certified(change)) => certified.is_current(change),
-            _ => true,
-        }
-    }
-
-    /// Whether there is room for a change of the star of `hole`. O(1).
+    /// Whether there is room for these changes of the stars of their holes. O(changes).
     ///
     /// # Errors
     ///
     /// What there would be too many of.
-    pub fn check_room(&self, hole: &Hole, change: &Change) -> Result<(), TooMany> {
-        match (self, change) {
-            (Self::Certified(certified), Change::Certified(change)) => {
-                certified.check_room(change, hole.slots.len())
-            }
-            _ => Ok(()),
+    pub fn check_room<'a>(
+        &self,
+        changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone,
+    ) -> Result<(), TooMany> {
+        match self {
+            Self::Certified(certified) => certified.check_room(of_map(changes)),
+            Self::Estimate(_) => Ok(()),
         }
     }
 
-    /// Applies what was found for the replacement of the star of `hole`. There must be [room](Self::check_room) for it.
-    pub fn apply(&mut self, hole: &Hole, change: Change) {
-        match (self, change) {
-            (Self::Certified(certified), Change::Certified(change)) => certified.apply(hole, &change),
-            (Self::Estimate(estimate), Change::Estimate(change)) => estimate.apply(hole, &change),
-            _ => debug_assert!(false, "a change of one kind applied to errors of the other"),
+    /// Applies what was found for the replacement of the star of each hole, one after another. No two change the same star, nor move the
+    /// same source edge; there must be [room](Self::check_room) for them.
+    pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone + Send) {
+        match self {
+            Self::Certified(certified) => certified.apply_all(of_map(changes)),
+            Self::Estimate(estimate) => {
+                for (hole, change) in changes {
+                    if let Change::Estimate(change) = change {
+                        estimate.apply(hole, change);
+                    }
+                }
+            }
         }
     }
+}
+
+impl Change {
+    /// Source edges that get another way over the mesh.
+    pub fn moved_edges(&self) -> impl Iterator<Item = u32> {
+        let of_map = match self {
+            Self::Certified(change) => Some(change),
+            Self::Estimate(_) => None,
+        };
+        of_map.into_iter().flat_map(certified::Change::moved_edges)
+    }
+}
+
+/// The changes in the map of the proof.
+fn of_map<'a>(
+    changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone,
+) -> impl Iterator<Item = (&'a Hole, &'a certified::Change)> + Clone {
+    changes.filter_map(|(hole, change)| match change {
+        Change::Certified(change) => Some((hole, change)),
+        Change::Estimate(_) => None,
+    })
 }
 
 /// The largest local and global error that a removal may make now.

@@ -73,28 +73,31 @@ impl Hole {
     /// Chains the spokes into ring and slots. The start is the lowest ring vertex, or the chain's first, so that the
     /// order does not depend on how the star happens to be listed.
     fn order(&mut self) -> Result<(), NoHole> {
-        let is_first = |v: u32| self.spokes.iter().all(|spoke| spoke.to != v);
-        let chain_start = self.spokes.iter().map(|spoke| spoke.from).find(|&v| is_first(v));
-        self.closed = chain_start.is_none();
-        let lowest = self.spokes.iter().map(|spoke| spoke.from).min();
+        let Self { closed, ring, slots, spokes, .. } = self;
+        let onward = |at: u32| spokes.iter().find(|spoke| spoke.from == at);
+        let is_first = |v: u32| spokes.iter().all(|spoke| spoke.to != v);
+        let chain_start = spokes.iter().map(|spoke| spoke.from).find(|&v| is_first(v));
+        *closed = chain_start.is_none();
+        let lowest = spokes.iter().map(|spoke| spoke.from).min();
         let Some(start) = chain_start.or(lowest) else { return Err(NoHole::Complex) };
         let mut at = start;
-        self.ring.push(start);
-        for _ in 0..self.spokes.len() {
-            let mut onward = self.spokes.iter().filter(|spoke| spoke.from == at);
-            let (Some(spoke), None) = (onward.next(), onward.next()) else { return Err(NoHole::Complex) };
-            self.slots.push(spoke.slot);
+        ring.push(start);
+        for _ in 0..spokes.len() {
+            let Some(spoke) = onward(at) else { return Err(NoHole::Complex) };
+            slots.push(spoke.slot);
             at = spoke.to;
-            if at == start && self.closed && self.slots.len() == self.spokes.len() {
+            if at == start {
                 break;
             }
-            if self.ring.contains(&at) {
-                return Err(NoHole::Complex);
-            }
-            self.ring.push(at);
+            ring.push(at);
         }
-        let n_expected = self.slots.len() + usize::from(!self.closed);
-        let is_disk = self.ring.len() == n_expected && self.ring.len() >= if self.closed { 3 } else { 2 };
+        // A way that meets itself goes round there for ever: it neither comes back to the start nor to an end. One that does has
+        // taken every spoke once.
+        let is_disk = if *closed {
+            at == start && slots.len() == spokes.len() && ring.len() >= 3
+        } else {
+            onward(at).is_none()
+        };
         if is_disk { Ok(()) } else { Err(NoHole::Complex) }
     }
 

@@ -36,6 +36,7 @@ use chains::Chains;
 use contents::Contents;
 use source::SourceEdges;
 use std::collections::HashMap;
+use transfer::Assignment;
 pub use transfer::{Change, Transfer};
 
 /// How many times the limit a displacement is followed up. The filling was chosen to be within the limit, so that little is
@@ -109,84 +110,78 @@ impl Certified {
         }
     }
 
-    /// Whether no chain that `change` sets was set since it was found. All else that a change depends on belongs to its own
-    /// star. Holds until [`Self::compact`].
-    pub fn is_current(&self, change: &Change) -> bool {
-        change.chains.iter().all(|chain| self.chains.version(chain.edge) == chain.replaces)
-    }
-
-    /// Whether the pools have room for `change`, whose hole has at most `n_slots` slots. O(1).
+    /// Whether the pools have room for these changes of the stars of their holes. O(changes).
     ///
     /// # Errors
     ///
     /// What there would be too many of.
-    pub fn check_room(&self, change: &Change, n_slots: usize) -> Result<(), TooMany> {
-        let of_chains = Chains::n_words_of(change.chains.len(), change.portions.len());
-        let of_contents = Contents::n_words_of(n_slots, change.assignments.len() + change.through.len());
+    pub fn check_room<'a>(
+        &self,
+        changes: impl Iterator<Item = (&'a Hole, &'a Change)>,
+    ) -> Result<(), TooMany> {
+        let (mut of_chains, mut of_contents) = (0, 0);
+        for (hole, change) in changes {
+            of_chains += Chains::n_words_of(change.chains.len(), change.portions.len());
+            let n_mapped = change.assignments.len() + change.through.len();
+            of_contents += Contents::n_words_of(hole.slots.len(), n_mapped);
+        }
         check_places("portions of source edges", self.chains.n_words(), of_chains)?;
         check_places("vertices and edges mapped into triangles", self.contents.n_words(), of_contents)
     }
 
-    /// Carries the map over to the filling. There must be [room](Self::check_room) for it.
-    pub fn apply(&mut self, hole: &Hole, change: &Change) {
-        let Change { assignments, chains, portions, through } = change;
-        let mut start = 0;
-        for chain in chains {
-            self.chains.set(chain.edge, &portions[start..chain.end]);
-            start = chain.end;
-        }
-        hole.slots.iter().for_each(|&slot| self.contents.clear(slot));
-        let (mut assignments, mut through) = (assignments.as_slice(), through.as_slice());
-        for (label, &slot) in (0..).zip(&hole.slots) {
-            let vertices = take_while(&mut assignments, |assignment| assignment.label == label);
-            let edges = take_while(&mut through, |&(through, _)| through == label);
-            self.contents.fill(
-                slot,
-                vertices.iter().map(|assignment| assignment.vertex),
-                edges.iter().map(|&(_, edge)| edge),
-            );
-            for assignment in vertices {
-                self.rim_corner[assignment.vertex as usize] = assignment.rim_corner;
-                if assignment.rim_corner != NOT_ON_RIM {
-                    self.rim_slots.insert(assignment.vertex, slot);
-                }
+    /// Carries the map over to the filling of each hole, one after another. No two changes have a star or a source edge in common, and
+    /// there must be [room](Self::check_room) for them.
+    pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone + Send) {
+        let Self { chains, contents, rim_corner, rim_slots, .. } = self;
+        let of_chains = changes.clone();
+        let set_chains = || of_chains.for_each(|(_, change)| change.set_chains(chains));
+        let fill_slots = || {
+            for (hole, change) in changes {
+                change.fill_slots(hole, contents, |Assignment { vertex, rim_corner: corner, .. }, slot| {
+                    rim_corner[vertex as usize] = corner;
+                    if corner != NOT_ON_RIM {
+                        rim_slots.insert(vertex, slot);
+                    }
+                });
             }
-        }
+        };
+        rayon::join(set_chains, fill_slots);
     }
 
     /// Gives back memory that finished removals left behind; cheap enough to call after every batch.
     pub fn compact(&mut self) {
-        self.chains.compact();
-        self.contents.compact();
+        let Self { chains, contents, .. } = self;
+        rayon::join(|| chains.compact(), || contents.compact());
     }
 
     /// Gives every slot its new number. O(words of the proof).
     pub fn renumber_slots(&mut self, slots: &Renumbering) {
-        self.chains.renumber_slots(slots);
-        self.contents.renumber_slots(slots);
+        let Self { chains, contents, .. } = self;
+        rayon::join(|| chains.renumber_slots(slots), || contents.renumber_slots(slots));
         for slot in self.rim_slots.values_mut() {
             *slot = slots.place(*slot);
         }
     }
 
-    /// Source vertices whose image lies in the star of `hole`, in lists: the removed one first.
-    pub fn vertices_in<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = &'a [u32]> + Clone {
-        let mapped = hole.slots.iter().map(|&slot| self.contents.vertices(slot));
-        std::iter::once(std::slice::from_ref(&hole.removed)).chain(mapped)
+    /// Makes `covered` the source vertices whose image lies in the star of `hole`: the removed one first.
+    pub fn gather(&self, hole: &Hole, covered: &mut Vec<u32>) {
+        covered.clear();
+        covered.push(hole.removed);
+        hole.slots.iter().for_each(|&slot| covered.extend_from_slice(self.contents.vertices(slot)));
     }
 
     /// Shows `take` the other ends of those source edges at the vertex of `hole` that have no chain, each once: ring vertices, with
-    /// their places on the ring, or vertices mapped into the star. Of many edges, or to many vertices in the star, some are left out.
-    /// O(valence), but O(edges) at a hub.
-    pub fn for_each_unchained(&self, hole: &Hole, mut take: impl FnMut(u32, Option<usize>)) {
+    /// their places on the ring, or vertices mapped into the star, which are `covered`. Of many edges, or to many vertices in the star,
+    /// some are left out. O(valence), but O(edges) at a hub.
+    pub fn for_each_unchained(&self, hole: &Hole, covered: &[u32], mut take: impl FnMut(u32, Option<usize>)) {
         let v = hole.removed;
-        let Self { source, chains, contents, .. } = self;
+        let Self { source, chains, .. } = self;
         let unchained_up = source.up(v).filter(|&(edge, _)| !chains.has(edge));
         for (_, high) in unchained_up.take(MAX_VALENCE) {
             take(high, hole.ring.iter().position(|&r| r == high));
         }
         let corners = hole.ring.iter().enumerate().map(|(at, &r)| (r, Some(at)));
-        let covered = hole.slots.iter().flat_map(|&slot| contents.vertices(slot)).map(|&x| (x, None));
+        let covered = covered.iter().filter(|&&x| x != v).map(|&x| (x, None));
         for (low, corner) in corners.chain(covered.take(MANY)).filter(|&(other, _)| other < v) {
             let is_end = source.edge(low, v).is_some_and(|edge| !chains.has(edge));
             if is_end {
@@ -198,12 +193,4 @@ impl Certified {
     fn is_alive(&self, v: u32) -> bool {
         self.rim_corner[v as usize] == ALIVE
     }
-}
-
-/// Takes the leading ones off `rest`.
-fn take_while<'a, T>(rest: &mut &'a [T], is_leading: impl Fn(&T) -> bool) -> &'a [T] {
-    let n_leading = rest.iter().take_while(|&item| is_leading(item)).count();
-    let (leading, others) = rest.split_at(n_leading);
-    *rest = others;
-    leading
 }

@@ -96,6 +96,7 @@ impl Removal<'_> {
     }
 
     /// For a source vertex on the boundary: the ring edge that its boundary edge is, or becomes.
+    #[inline]
     pub(super) fn rim_edge(&self, v: u32) -> Option<usize> {
         let hole = self.replacement.hole;
         let new_edge = hole.n_ring() - 1;
@@ -116,6 +117,7 @@ impl Removal<'_> {
     }
 
     /// The corner of its new triangle at which the boundary edge of `v` starts.
+    #[inline]
     pub(super) fn new_rim(&self, v: u32) -> Option<u8> {
         let from = self.rim_edge(v)?;
         let to = self.replacement.hole.next(from);

@@ -1,6 +1,7 @@
 //! Moving the map from the star of a vertex to the filling of its hole.
 
-use super::chains::Portion;
+use super::chains::{Chains, Portion};
+use super::contents::Contents;
 use super::location::Location;
 use super::removal::Removal;
 use super::route::{Destinations, Route};
@@ -50,8 +51,6 @@ pub(super) struct Assignment {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NewChain {
     pub(super) edge: u32,
-    /// Version of the chain that it has now.
-    pub(super) replaces: u32,
     /// Where the new one ends among the portions.
     pub(super) end: usize,
 }
@@ -86,7 +85,7 @@ impl Transfer {
         let limit_sq = limit * limit;
         let largest_sq = self.walk(removal, [limit_sq, REACH * REACH * limit_sq], |edge, route| {
             route.shorten(removal);
-            draft.add_chain(removal, edge, route);
+            draft.add_chain(edge, route);
         });
         let found = largest_sq.sqrt();
         let result = if largest_sq > limit_sq {
@@ -103,8 +102,7 @@ impl Transfer {
     /// The source vertices mapped into the star of `hole`, in the buffer for them, to be given back.
     fn gather(&mut self, certified: &Certified, hole: &Hole) -> Vec<u32> {
         let mut covered = std::mem::take(&mut self.covered);
-        covered.clear();
-        certified.vertices_in(hole).for_each(|list| covered.extend_from_slice(list));
+        certified.gather(hole, &mut covered);
         covered
     }
 
@@ -159,7 +157,14 @@ impl Transfer {
             let p = surface.origin(v);
             let (label, distance_sq) = match removal.rim_edge(v) {
                 Some(i) => (tree.at_ring_edge(i), point_segment_distance_sq(p, removal.ring_edge(i))),
-                None => removal.near(p, self.location.find(p, before.into()), limit_sq.max(largest_sq)),
+                None => {
+                    let enough_sq = limit_sq.max(largest_sq);
+                    // Most lie over the triangle that the one before them lies over.
+                    match self.location.height_sq(before.into(), p) {
+                        Some(height_sq) if height_sq <= enough_sq => (before, height_sq),
+                        _ => removal.near(p, self.location.find(p, before.into()), enough_sq),
+                    }
+                }
             };
             labels.set(v, label);
             before = label;
@@ -173,6 +178,41 @@ impl Transfer {
 }
 
 impl Change {
+    /// Source edges that get another chain.
+    pub fn moved_edges(&self) -> impl Iterator<Item = u32> {
+        self.chains.iter().map(|chain| chain.edge)
+    }
+
+    /// Gives the source edges that the removal moves their new chains.
+    pub(super) fn set_chains(&self, chains: &mut Chains) {
+        let mut start = 0;
+        for chain in &self.chains {
+            chains.set(chain.edge, &self.portions[start..chain.end]);
+            start = chain.end;
+        }
+    }
+
+    /// Empties the slots of `hole` and fills those of its filling, and shows `take` each vertex with the slot it is mapped into.
+    pub(super) fn fill_slots(
+        &self,
+        hole: &Hole,
+        contents: &mut Contents,
+        mut take: impl FnMut(Assignment, u32),
+    ) {
+        hole.slots.iter().for_each(|&slot| contents.clear(slot));
+        let (mut assignments, mut through) = (self.assignments.as_slice(), self.through.as_slice());
+        for (label, &slot) in (0..).zip(&hole.slots) {
+            let vertices = take_while(&mut assignments, |assignment| assignment.label == label);
+            let edges = take_while(&mut through, |&(through, _)| through == label);
+            contents.fill(
+                slot,
+                vertices.iter().map(|assignment| assignment.vertex),
+                edges.iter().map(|&(_, edge)| edge),
+            );
+            vertices.iter().for_each(|&assignment| take(assignment, slot));
+        }
+    }
+
     fn clear(&mut self) {
         self.assignments.clear();
         self.chains.clear();
@@ -200,10 +240,9 @@ impl Change {
         }
     }
 
-    fn add_chain(&mut self, removal: Removal<'_>, edge: u32, route: &Route) {
+    fn add_chain(&mut self, edge: u32, route: &Route) {
         self.portions.extend_from_slice(&route.portions);
-        let replaces = removal.certified.chains.version(edge);
-        self.chains.push(NewChain { edge, replaces, end: self.portions.len() });
+        self.chains.push(NewChain { edge, end: self.portions.len() });
         if route.portions.len() < 2 {
             return;
         }
@@ -220,8 +259,13 @@ impl Change {
 /// The items in order of their labels, which are below [`MAX_VALENCE`], by counting.
 fn by_label<T: Copy>(items: &[T], label: impl Fn(&T) -> u8) -> Vec<T> {
     let mut starts = [0; MAX_VALENCE + 1];
-    items.iter().for_each(|item| starts[usize::from(label(item)) + 1] += 1);
-    for at in 0..MAX_VALENCE {
+    let mut n_labels = 0;
+    for item in items {
+        let label = usize::from(label(item));
+        starts[label + 1] += 1;
+        n_labels = n_labels.max(label + 1);
+    }
+    for at in 1..n_labels {
         starts[at + 1] += starts[at];
     }
     let mut ordered = items.to_vec();
@@ -231,4 +275,12 @@ fn by_label<T: Copy>(items: &[T], label: impl Fn(&T) -> u8) -> Vec<T> {
         *start += 1;
     }
     ordered
+}
+
+/// Takes the leading ones off `rest`.
+fn take_while<'a, T>(rest: &mut &'a [T], is_leading: impl Fn(&T) -> bool) -> &'a [T] {
+    let n_leading = rest.iter().take_while(|&item| is_leading(item)).count();
+    let (leading, others) = rest.split_at(n_leading);
+    *rest = others;
+    leading
 }

@@ -4,8 +4,12 @@
 //! the triangles beside the edge: what no choice of inner edges can avoid ends a candidate before anything else of it is looked at.
 
 use crate::bound::certified::Certified;
+use crate::geometry::prepared::larger;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::{Hole, Surface};
+
+/// Of two lines more nearly parallel than this, as the squared sine, the distance is not worth asking for.
+const PARALLEL: f64 = 1e-12;
 
 /// Source edges at the vertex of a hole, as far as they get a chain if they cross an edge inside it.
 #[derive(Clone, Debug, Default)]
@@ -14,25 +18,41 @@ pub struct Crossings {
     origin: Vector,
     /// Normal of the hole's average plane.
     up: Vector,
-    /// Per ring vertex, where a source edge ends there.
-    corners: Vec<Option<Vector>>,
-    /// Where the others end, at covered vertices.
-    covered: Vec<Vector>,
+    /// Per ring vertex, the source edge that ends there; one of no length where there is none.
+    to_corners: Vec<SourceEdge>,
+    /// The others, to covered vertices.
+    to_covered: Vec<SourceEdge>,
+}
+
+/// A source edge, seen from the removed vertex.
+#[derive(Clone, Copy, Debug, Default)]
+struct SourceEdge {
+    along: Vector,
+    length_sq: f64,
 }
 
 impl Crossings {
-    /// Makes these the edges at the vertex of `hole`, whose average plane has the normal `up`. O(valence).
-    pub fn gather(&mut self, surface: &Surface, hole: &Hole, up: Vector, certified: &Certified) {
+    /// Makes these the edges at the vertex of `hole`, whose average plane has the normal `up`, given the source vertices mapped into its
+    /// star. O(valence).
+    pub fn gather(
+        &mut self,
+        surface: &Surface,
+        hole: &Hole,
+        up: Vector,
+        certified: &Certified,
+        covered: &[u32],
+    ) {
         self.up = up;
         self.origin = surface.origin(hole.removed);
-        self.covered.clear();
-        self.corners.clear();
-        self.corners.resize(hole.n_ring(), None);
-        certified.for_each_unchained(hole, |other, corner| {
-            let end = surface.origin(other);
+        self.to_covered.clear();
+        self.to_corners.clear();
+        self.to_corners.resize(hole.n_ring(), SourceEdge::default());
+        certified.for_each_unchained(hole, covered, |other, corner| {
+            let along = sub(surface.origin(other), self.origin);
+            let edge = SourceEdge { along, length_sq: length_sq(along) };
             match corner {
-                Some(corner) => self.corners[corner] = Some(end),
-                None => self.covered.push(end),
+                Some(corner) => self.to_corners[corner] = edge,
+                None => self.to_covered.push(edge),
             }
         });
     }
@@ -43,22 +63,31 @@ impl Crossings {
         let (i, j) = (usize::from(i.min(j)), usize::from(i.max(j)));
         let (start, along) = (hole.points[i], sub(hole.points[j], hole.points[i]));
         let across = cross(self.up, along);
-        let is_left = |p: Vector| dot(across, sub(p, start)) >= 0.0;
         // The vertex of a half disk goes to the new boundary edge, with all inner edges on one side of it.
-        let apex_is_left = !hole.closed || is_left(hole.apex);
+        let apex_is_left = !hole.closed || dot(across, sub(hole.apex, start)) >= 0.0;
         let from_origin = sub(start, self.origin);
+        let level = dot(across, from_origin);
+        // With the two directions d and a and the way w from line to line: d x a . w = d . a x w, |d x a|^2 = |d|^2 |a|^2 - (d . a)^2.
+        let moment = cross(along, from_origin);
+        let along_sq = length_sq(along);
         let mut worst = Ratio { over: 0.0, under: 1.0 };
-        let mut cross_to = |end: Vector| {
-            let normal = cross(sub(end, self.origin), along);
-            let height = dot(normal, from_origin);
-            worst = worst.max(Ratio { over: height * height, under: length_sq(normal) });
+        let mut cross_with = |edge: &SourceEdge| {
+            if edge.length_sq <= 0.0 {
+                return;
+            }
+            let height = dot(edge.along, moment);
+            let lean = dot(edge.along, along);
+            let full_sq = edge.length_sq * along_sq;
+            let under = larger(full_sq - lean * lean, PARALLEL * full_sq);
+            worst = worst.max(Ratio { over: height * height, under });
         };
         if apex_is_left {
-            self.corners[i + 1..j].iter().flatten().for_each(|&end| cross_to(end));
+            self.to_corners[i + 1..j].iter().for_each(&mut cross_with);
         } else {
-            self.corners[j + 1..].iter().chain(&self.corners[..i]).flatten().for_each(|&end| cross_to(end));
+            self.to_corners[j + 1..].iter().chain(&self.to_corners[..i]).for_each(&mut cross_with);
         }
-        self.covered.iter().filter(|&&end| is_left(end) != apex_is_left).for_each(|&end| cross_to(end));
+        let is_left = |edge: &&SourceEdge| dot(across, edge.along) >= level;
+        self.to_covered.iter().filter(|edge| is_left(edge) != apex_is_left).for_each(cross_with);
         worst.over / worst.under
     }
 }
@@ -103,8 +132,9 @@ mod tests {
         let (surface, hole) = fan();
         let certified = Certified::new(&surface, 0.0);
         let mut crossings = Crossings::default();
-        crossings.gather(&surface, &hole, hole.average_normal(), &certified);
-        assert!(crossings.covered.is_empty() && crossings.corners.iter().all(Option::is_some));
+        crossings.gather(&surface, &hole, hole.average_normal(), &certified, &[]);
+        assert!(crossings.to_covered.is_empty());
+        assert!(crossings.to_corners.iter().all(|edge| edge.length_sq > 0.0));
         let spoke_sq = |corner: usize, [i, j]: [usize; 2]| {
             segment_segment_distance_sq([hole.apex, hole.points[corner]], [hole.points[i], hole.points[j]])
         };

@@ -46,16 +46,17 @@ impl Decimation {
         }
     }
 
-    /// Gives back memory that finished removals left behind; cheap enough to call after every round.
-    pub(super) fn compact(&mut self) {
+    /// Closes up the slots once many are empty; cheap enough to call after every round.
+    pub(super) fn close_up(&mut self) {
         let Self { surface, seams, error, recorder, .. } = self;
-        surface.compact();
         let Some(slots) = surface.close_up() else { return };
-        if let Some(seams) = seams {
-            seams.renumber_slots(&slots);
-        }
-        error.renumber_slots(&slots);
-        recorder.renumber_slots(&slots);
+        let renumber_recorder = || {
+            recorder.renumber_slots(&slots);
+            if let Some(seams) = seams {
+                seams.renumber_slots(&slots);
+            }
+        };
+        rayon::join(|| error.renumber_slots(&slots), renumber_recorder);
     }
 
     /// The history, with what is still alive. Everything else is let go before it is laid out.

@@ -13,8 +13,8 @@ use super::triangulate::{collect_part, ring_index};
 use super::validity::{WORST_ASPECT, worst_star_aspect};
 use crate::bound::REACH;
 use crate::bound::certified::Certified;
-use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
-use crate::geometry::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
+use crate::geometry::floor::Floor;
+use crate::geometry::vector::length_sq;
 use crate::mesh::{Filling, Hole, Surface};
 
 /// A hole to be filled.
@@ -35,6 +35,8 @@ pub struct Fitting<'a> {
 /// Buffers for one hole at a time.
 #[derive(Clone, Debug, Default)]
 pub struct FitBuffers {
+    /// Source vertices mapped into the hole.
+    covered: Vec<u32>,
     crossings: Crossings,
     asked: Asked,
     parts: [Part; 2],
@@ -59,13 +61,14 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
     if hole.n_ring() > MAX_CORNERS || size_sq <= 0.0 || !size_sq.is_finite() || is_tetrahedron {
         return None;
     }
-    let FitBuffers { crossings, asked, parts } = buffers;
+    let FitBuffers { covered, crossings, asked, parts } = buffers;
     let split = match class {
         Class::InteriorEdge(ends) => Some(ends.map(ring_index)),
         _ => None,
     };
     collect_parts(hole, split, parts, filling);
-    crossings.gather(surface, hole, up, certified);
+    certified.gather(hole, covered);
+    crossings.gather(surface, hole, up, certified, covered);
     let crossing_sq = |edge| crossings.largest_sq(hole, edge);
     let is_inside = |&[i, j]: &[u8; 2]| !hole.is_ring_edge(i.into(), j.into());
     let split_sq = split.filter(is_inside).map_or(0.0, crossing_sq);
@@ -75,7 +78,7 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
     if least_sq > limit_sq {
         return Some(least_sq);
     }
-    asked.gather(surface, hole, up, certified.vertices_in(hole));
+    asked.gather(surface, hole, up, covered);
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
     let mut taken: Vec<[u8; 2]> = vec![];
@@ -151,49 +154,7 @@ fn largest_distance_sq(
     }
     match asked.over(triangle) {
         0 => 0.0,
-        over => asked.largest(over, cutoff, floor.distance_sq()),
-    }
-}
-
-/// A triangle under points most of which have the foot of their perpendicular inside: their distance is a height.
-struct Floor {
-    corners: Triangle,
-    edges: [Vector; 2],
-    normal: Vector,
-    normal_sq: f64,
-}
-
-impl Floor {
-    fn new(corners: Triangle) -> Self {
-        let edges = [sub(corners[1], corners[0]), sub(corners[2], corners[0])];
-        let normal = cross(edges[0], edges[1]);
-        Self { corners, edges, normal, normal_sq: length_sq(normal) }
-    }
-
-    /// Whether the triangle's [`aspect`](super::validity::aspect) is below `least`.
-    fn is_thinner(&self, least: f64) -> bool {
-        let [ab, ac] = self.edges;
-        let edges_sq = length_sq(ab) + distance_sq(self.corners[1], self.corners[2]) + length_sq(ac);
-        12.0 * self.normal_sq < (least * edges_sq).powi(2) || edges_sq <= 0.0
-    }
-
-    /// Squared distance of a point: good enough to choose by, not to prove with.
-    #[inline(always)]
-    fn distance_sq(&self) -> impl Fn(Vector) -> f64 {
-        let Self { corners, edges: [ab, ac], normal, normal_sq } = *self;
-        let per_normal_sq = 1.0 / normal_sq;
-        // Perpendicular to the normal and to one edge at the first corner.
-        let across = [cross(ac, normal), cross(normal, ab)];
-        move |p| {
-            let ap = sub(p, corners[0]);
-            let [v, w] = across.map(|axis| dot(ap, axis));
-            if v >= 0.0 && w >= 0.0 && v + w <= normal_sq {
-                let height = dot(ap, normal);
-                height * height * per_normal_sq
-            } else {
-                point_triangle_distance_sq(p, &corners)
-            }
-        }
+        over => asked.largest(over, cutoff, |p| floor.distance_sq(p)),
     }
 }
 

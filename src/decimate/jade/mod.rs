@@ -7,6 +7,7 @@
 //! depend on the number of threads.
 
 pub mod asked;
+pub mod batch;
 pub mod best_place;
 pub mod candidate;
 pub mod classify;

@@ -6,6 +6,7 @@
 //! smaller sum. A polygon of `n` corners has `n (n-1) (n-2) / 6` triangles, each scored once.
 
 use super::asked::MAX_CORNERS;
+use crate::geometry::prepared::{larger, smaller};
 
 /// Worst score and sum of scores of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -19,7 +20,7 @@ const IMPOSSIBLE: Score = Score { worst: f64::INFINITY, sum: f64::INFINITY };
 
 impl Score {
     fn with(self, other: Self) -> Self {
-        Self { worst: self.worst.max(other.worst), sum: self.sum + other.sum }
+        Self { worst: larger(self.worst, other.worst), sum: self.sum + other.sum }
     }
 }
 
@@ -41,10 +42,11 @@ impl EdgeScores {
         for span in 2..n {
             for i in 0..n - span {
                 let j = i + span;
-                let beside = (i + 1..j).map(|k| least[i][k].max(least[k][j])).fold(f64::INFINITY, f64::min);
+                let beside =
+                    (i + 1..j).map(|k| larger(least[i][k], least[k][j])).fold(f64::INFINITY, smaller);
                 let is_inside = span + 1 < n;
                 own[i][j] = if is_inside && beside <= enough { score([corners[i], corners[j]]) } else { 0.0 };
-                least[i][j] = beside.max(own[i][j]);
+                least[i][j] = larger(beside, own[i][j]);
             }
         }
         if n < 3 { 0.0 } else { least[0][n - 1] }
@@ -91,7 +93,7 @@ pub fn triangulate_optimally(
                 } else {
                     score([corners[i], corners[k], corners[j]], best[i][j].worst)
                 };
-                let own = own.max(across);
+                let own = larger(own, across);
                 let whole = sides.with(Score { worst: own, sum: own });
                 if whole < best[i][j] {
                     (best[i][j], apex[i][j]) = (whole, k);

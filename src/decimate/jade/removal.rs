@@ -1,9 +1,10 @@
-//! One removal: planned in parallel with others, carried out in turn.
+//! One removal: planned, and carried out.
 
 use super::candidate::{Scratch, Situation, Verdict, fill};
-use super::decimation::{Decimation, named_corners};
-use crate::bound::{Change, GlobalError, Limits, Replacement};
-use crate::mesh::{Filling, Hole, Seams, Surface, TooMany};
+use super::decimation::named_corners;
+use crate::bound::{Change, Limits, Replacement};
+use crate::history::Recorder;
+use crate::mesh::{Filling, Hole, Seams, Surface};
 
 /// All that a removal changes.
 #[derive(Clone, Debug)]
@@ -15,58 +16,65 @@ pub struct Plan {
     change: Change,
 }
 
-/// Plans the removal of `v` under `limits`, or tells what it would need.
+/// Plans the removal of `v` under `limits`, or tells what it would need. A plan is long, and most candidates have none: in a box it is
+/// not moved about with them.
 pub fn plan(
     situation: Situation<'_>,
     v: u32,
     limits: Limits,
     scratch: &mut Scratch,
-) -> Result<Plan, Verdict> {
+) -> Result<Box<Plan>, Verdict> {
     fill(situation, v, limits, scratch)?;
     let Scratch { hole, filling, transfer, .. } = scratch;
     let replacement = Replacement { surface: situation.surface, hole, filling };
     let (errors, change) = situation.error.change(replacement, limits, transfer).map_err(Verdict::Above)?;
-    Ok(Plan { hole: hole.without_points(), filling: filling.clone(), error: errors.global, change })
+    Ok(Box::new(Plan { hole: hole.without_points(), filling: filling.clone(), error: errors.global, change }))
 }
 
 impl Plan {
-    /// Whether the plan still fits after others of its batch were carried out: none of its new edges has been made
-    /// since, and none of the source edges that it moves has moved.
-    pub fn is_current(&self, surface: &Surface, error: &GlobalError) -> bool {
-        let is_free = |[i, j]: [u8; 2]| {
-            surface.n_faces(self.hole.ring[usize::from(i)], self.hole.ring[usize::from(j)]) == 0
-        };
-        let closes_up = self.hole.closed
-            && self.hole.n_ring() == 3
-            && surface.has_triangle(self.filling.corners(&self.hole, 0));
-        !closes_up && self.filling.inner_edges(&self.hole).all(is_free) && error.is_current(&self.change)
+    /// The star that goes, and what its filling changes in the errors.
+    pub fn change(&self) -> (&Hole, &Change) {
+        (&self.hole, &self.change)
     }
 
-    /// Carries the plan out: record, errors, mesh, in this order, since each needs the star as it was.
-    ///
-    /// # Errors
-    ///
-    /// When the errors have no room for it; nothing has changed then.
-    pub fn carry_out(self, decimation: &mut Decimation) -> Result<(), TooMany> {
-        let Self { hole, filling, error: step_error, change } = self;
-        let Decimation { surface, seams, names, error, recorder, .. } = decimation;
-        error.check_room(&hole, &change)?;
-        recorder.step(step_error);
-        for &slot in &hole.slots {
-            recorder.death(slot, named_corners(surface, seams.as_ref(), names.as_deref(), slot));
-        }
-        error.apply(&hole, change);
-        let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(&hole, i)).collect();
-        let vertices = seams.as_ref().map(|seams| seam_vertices(surface, seams, &hole, &filling));
-        surface.replace_star(hole.removed, &hole.slots, &born);
-        for (i, &slot) in (0..born.len()).zip(&hole.slots) {
-            recorder.birth(slot);
-            if let (Some(seams), Some(vertices)) = (seams.as_mut(), &vertices) {
-                seams.set(slot, vertices[i]);
-            }
-        }
-        Ok(())
+    /// Edges that the filling makes, as vertices, the lower one first.
+    pub fn new_edges(&self) -> impl Iterator<Item = [u32; 2]> {
+        let vertex = |i: u8| self.hole.ring[usize::from(i)];
+        self.filling.inner_edges(&self.hole).map(move |[i, j]| [vertex(i), vertex(j)]).map(ascending)
     }
+
+    /// The vertices of the one triangle that closes a hole of three corners, in ascending order.
+    pub fn lid(&self) -> Option<[u32; 3]> {
+        let is_closed = self.hole.closed && self.hole.n_ring() == 3;
+        is_closed.then(|| ascending(self.filling.corners(&self.hole, 0)))
+    }
+
+    /// Puts the filling in the place of the star and writes that down as a step.
+    pub fn replace_star(
+        &self,
+        surface: &mut Surface,
+        seams: Option<&mut Seams>,
+        names: Option<&[u32]>,
+        recorder: &mut Recorder,
+    ) {
+        let Self { hole, filling, error, .. } = self;
+        recorder.step(*error);
+        for &slot in &hole.slots {
+            recorder.death(slot, named_corners(surface, seams.as_deref(), names, slot));
+        }
+        let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
+        let vertices = seams.as_deref().map(|seams| seam_vertices(surface, seams, hole, filling));
+        surface.replace_star(hole.removed, &hole.slots, &born);
+        hole.slots.iter().take(born.len()).for_each(|&slot| recorder.birth(slot));
+        if let (Some(seams), Some(vertices)) = (seams, vertices) {
+            hole.slots.iter().zip(vertices).for_each(|(&slot, vertices)| seams.set(slot, vertices));
+        }
+    }
+}
+
+fn ascending<const N: usize>(mut vertices: [u32; N]) -> [u32; N] {
+    vertices.sort_unstable();
+    vertices
 }
 
 /// The vertices of the filling's triangles: at each ring point the one that the star has on the same side of the seam.

@@ -4,19 +4,15 @@
 //! its turn comes, however much its star has changed since: it only decides whose turn it is. The ceilings rise so finely that
 //! removals go nearly in the order of their errors all the same, and a vertex is judged as often as it is tried.
 
+use super::batch::{Claims, carry_out, plan_all};
 use super::candidate::Verdict;
 use super::decimation::Decimation;
 use super::placement;
-use super::removal::{Plan, plan};
 use super::thresholds::Thresholds;
 use crate::bound::Limits;
 use crate::bound::accumulated::round_up;
 use crate::mesh::{Surface, TooMany};
 use rayon::prelude::*;
-
-/// Most candidates that one thread takes at a time. Of few candidates it takes fewer: the last ones of a history stand for
-/// thousands of input vertices each.
-const CHUNK: usize = 32;
 
 /// Removals that are planned before the first of them is carried out.
 const BATCH: usize = 512;
@@ -33,6 +29,8 @@ struct Candidates {
     found: Vec<f32>,
     /// Last round in which the vertex or a neighbour of it was picked.
     picked: Vec<u32>,
+    /// The current round.
+    round: u32,
     /// Vertices that may still be removed.
     open: Vec<u32>,
     /// Vertices below the limits of this iteration and above the ceiling.
@@ -61,7 +59,7 @@ pub fn run(
     go_on: &dyn Fn(&Decimation) -> bool,
 ) -> Result<(), Unfinished> {
     let mut candidates = Candidates::new(decimation.surface.n_vertices());
-    let mut round = 0;
+    let mut claims = Claims::default();
     let mut limits = thresholds.limits();
     loop {
         candidates.admit(limits, &decimation.surface);
@@ -74,13 +72,12 @@ pub fn run(
                 if !go_on(decimation) {
                     return Err(Unfinished::Stopped);
                 }
-                round += 1;
-                let (picked, others) = candidates.pick(&decimation.surface, round, worklist);
                 let under = Limits { global: ceiling, ..limits };
-                let touched =
-                    remove_all(decimation, &mut candidates, under, &picked).map_err(Unfinished::TooLarge)?;
-                let next = candidates.touch(limits, is_last, touched).into_iter().chain(picked).chain(others);
-                worklist = candidates.sort_out(limits, ceiling, next.collect());
+                let Round { touched, mut left } =
+                    remove_all(decimation, &mut candidates, &mut claims, under, &worklist)
+                        .map_err(Unfinished::TooLarge)?;
+                left.extend(candidates.touch(limits, is_last, touched));
+                worklist = candidates.sort_out(limits, ceiling, left);
                 if worklist.is_empty() && ceiling >= limits.global {
                     worklist.extend(candidates.take_changed());
                 }
@@ -105,6 +102,7 @@ impl Candidates {
             needed: vec![0.0; n_vertices],
             found: vec![0.0; n_vertices],
             picked: vec![0; n_vertices],
+            round: 0,
             open: (0..).take(n_vertices).collect(),
             waiting: vec![],
             changed: vec![],
@@ -161,28 +159,43 @@ impl Candidates {
 
     /// Those of the given vertices below the ceiling, each once: cheapest first, as far as is known, ties to the lower vertex. Those
     /// above it wait, or are left to a later iteration.
-    fn sort_out(&mut self, limits: Limits, ceiling: f64, mut vertices: Vec<u32>) -> Vec<u32> {
-        let Self { needed, found, waiting, .. } = self;
-        vertices.retain(|&v| is_admitted(needed[v as usize], limits));
-        waiting.extend(vertices.extract_if(.., |v| f64::from(found[*v as usize]) > ceiling));
-        vertices
-            .par_sort_unstable_by(|&a, &b| found[a as usize].total_cmp(&found[b as usize]).then(a.cmp(&b)));
-        vertices.dedup();
-        vertices
+    #[expect(clippy::cast_possible_truncation, reason = "the lower half of a key is the vertex")]
+    fn sort_out(&mut self, limits: Limits, ceiling: f64, vertices: Vec<u32>) -> Vec<u32> {
+        let mut keys = Vec::with_capacity(vertices.len());
+        for v in vertices {
+            let (needed, found) = (self.needed[v as usize], self.found[v as usize]);
+            if !is_admitted(needed, limits) {
+                continue;
+            }
+            if f64::from(found) > ceiling {
+                self.waiting.push(v);
+            } else {
+                // The bits of what is not negative are in its order.
+                keys.push(u64::from(found.to_bits()) << u32::BITS | u64::from(v));
+            }
+        }
+        keys.par_sort_unstable();
+        keys.dedup();
+        keys.into_iter().map(|key| key as u32).collect()
     }
 
-    /// Parts the worklist into an independent set, no two of them neighbours, and the others. Who comes first is picked.
-    fn pick(&mut self, surface: &Surface, round: u32, worklist: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
-        let picked = &mut self.picked;
-        worklist.into_iter().partition(|&v| {
-            let is_free = picked[v as usize] != round;
-            if is_free {
-                for &slot in surface.star(v) {
-                    surface.corners(slot).iter().for_each(|&r| picked[r as usize] = round);
-                }
+    /// Picks the next vertices of the worklist for a batch, no two of the round neighbours, and takes them off it. Who comes first is
+    /// picked; those passed over go to `left`.
+    fn pick(&mut self, surface: &Surface, worklist: &mut &[u32], left: &mut Vec<u32>) -> Vec<u32> {
+        let Self { picked, round, .. } = self;
+        let mut batch = vec![];
+        while let (true, [v, rest @ ..]) = (batch.len() < BATCH, *worklist) {
+            *worklist = rest;
+            if picked[*v as usize] == *round {
+                left.push(*v);
+                continue;
             }
-            is_free
-        })
+            batch.push(*v);
+            for &slot in surface.star(*v) {
+                surface.corners(slot).iter().for_each(|&r| picked[r as usize] = *round);
+            }
+        }
+        batch
     }
 
     /// Takes note of what a vertex needs.
@@ -213,57 +226,63 @@ fn is_admitted(needed: f32, limits: Limits) -> bool {
     needed.is_finite() && f64::from(needed) <= limits.local
 }
 
-/// Removes those of the picked vertices that are within the limits, one step each, and returns the vertices whose stars changed;
-/// those may repeat.
+/// What a round leaves to be looked at.
+#[derive(Clone, Debug, Default)]
+struct Round {
+    /// Vertices whose stars changed; they may repeat.
+    touched: Vec<u32>,
+    /// Those of the worklist that were not removed.
+    left: Vec<u32>,
+}
+
+/// Removes an independent set of the worklist, as far as it is within the limits, one step each: who comes first is in it.
 ///
-/// Plans are made in parallel, a batch at a time so that they never take much memory, and carried out in turn.
+/// Plans are made in parallel, a batch at a time so that they never take much memory; meanwhile the next batch is picked. A plan that
+/// another one of its batch has overtaken is made anew with the next.
 ///
 /// # Errors
 ///
-/// When there is no room for one.
+/// When there is no room for a batch.
 fn remove_all(
     decimation: &mut Decimation,
     candidates: &mut Candidates,
+    claims: &mut Claims,
     limits: Limits,
-    picked: &[u32],
-) -> Result<Vec<u32>, TooMany> {
-    let mut touched = vec![];
-    for batch in picked.chunks(BATCH) {
-        decimation.error.compact();
-        for (&v, planned) in batch.iter().zip(plan_all(decimation, limits, batch)) {
-            let is_current = |plan: &Plan| plan.is_current(&decimation.surface, &decimation.error);
-            let planned = match planned {
-                Ok(overtaken) if !is_current(&overtaken) => {
-                    plan(decimation.situation(), v, limits, &mut decimation.workers.scratch())
-                }
-                planned => planned,
-            };
+    mut worklist: &[u32],
+) -> Result<Round, TooMany> {
+    let Round { mut touched, mut left } = Round::default();
+    candidates.round += 1;
+    let mut batch = candidates.pick(&decimation.surface, &mut worklist, &mut left);
+    while !batch.is_empty() {
+        let (planned, next) = rayon::join(
+            || plan_all(decimation, limits, &batch),
+            || candidates.pick(&decimation.surface, &mut worklist, &mut left),
+        );
+        let mut plans = vec![];
+        let mut overtaken = vec![];
+        for (&v, planned) in batch.iter().zip(planned) {
             let verdict = match planned {
+                Ok(plan) if !claims.claim(&plan) => {
+                    overtaken.push(v);
+                    continue;
+                }
                 Ok(plan) => {
-                    touched.extend_from_slice(&plan.hole.ring);
-                    plan.carry_out(decimation)?;
+                    plans.push(plan);
                     Verdict::Impossible
                 }
-                Err(verdict) => verdict,
+                Err(verdict) => {
+                    left.push(v);
+                    verdict
+                }
             };
             candidates.set_verdict(v, verdict, decimation.c2);
         }
+        carry_out(decimation, &plans)?;
+        claims.clear(&plans);
+        touched.extend(plans.iter().flat_map(|plan| &plan.change().0.ring));
+        batch = overtaken;
+        batch.extend(next);
     }
-    decimation.compact();
-    Ok(touched)
-}
-
-/// Plans the removal of every vertex of the batch, in parallel.
-fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Result<Plan, Verdict>> {
-    let situation = decimation.situation();
-    let plan_chunk = |chunk: &[u32]| {
-        let mut scratch = decimation.workers.scratch();
-        chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
-    };
-    batch.par_chunks(chunk_len(batch.len())).flat_map_iter(plan_chunk).collect()
-}
-
-/// Length of the chunks into which `n` candidates are cut for the current pool.
-fn chunk_len(n: usize) -> usize {
-    (n / (8 * rayon::current_num_threads())).clamp(1, CHUNK)
+    decimation.close_up();
+    Ok(Round { touched, left })
 }

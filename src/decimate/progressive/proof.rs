@@ -53,10 +53,11 @@ impl Proof {
         let Self { surface, certified, hole, filling, transfer } = self;
         let found = certified.change(Replacement { surface, hole, filling }, f64::INFINITY, transfer);
         let Ok((_, change)) = found else { return false };
-        if certified.check_room(&change, hole.slots.len()).is_err() {
+        let changes = std::iter::once((&*hole, &change));
+        if certified.check_room(changes.clone()).is_err() {
             return false;
         }
-        certified.apply(hole, &change);
+        certified.apply_all(changes);
         certified.compact();
         let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
         surface.replace_star(hole.removed, &hole.slots, &born);

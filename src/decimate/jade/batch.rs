@@ -1,0 +1,131 @@
+//! Removals that go together: planned in parallel on the same mesh, and carried out at once.
+
+use super::candidate::Verdict;
+use super::decimation::Decimation;
+use super::removal::{Plan, plan};
+use crate::bound::Limits;
+use crate::mesh::TooMany;
+use rayon::prelude::*;
+
+/// Most candidates that one thread takes at a time. Of few candidates it takes fewer: the last ones of a history stand for
+/// thousands of input vertices each.
+const CHUNK: usize = 32;
+
+/// Plans the removal of every vertex of the batch under `limits`, in parallel. In order.
+pub fn plan_all(
+    decimation: &Decimation,
+    limits: Limits,
+    batch: &[u32],
+) -> impl Iterator<Item = Result<Box<Plan>, Verdict>> + use<> {
+    let situation = decimation.situation();
+    let plan_chunk = |chunk: &[u32]| {
+        let mut scratch = decimation.workers.scratch();
+        chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
+    };
+    let planned: Vec<_> = batch.par_chunks(chunk_len(batch.len())).map(plan_chunk).collect();
+    planned.into_iter().flatten()
+}
+
+/// Length of the chunks into which `n` candidates are cut for the current pool.
+fn chunk_len(n: usize) -> usize {
+    (n / (8 * rayon::current_num_threads())).clamp(1, CHUNK)
+}
+
+/// Carries the plans out, which are [independent](Claims::claim) of each other, one step each.
+///
+/// # Errors
+///
+/// When the errors have no room for them; nothing has changed then.
+pub fn carry_out(decimation: &mut Decimation, plans: &[Box<Plan>]) -> Result<(), TooMany> {
+    let Decimation { surface, seams, names, error, recorder, .. } = decimation;
+    let changes = plans.iter().map(|plan| plan.change());
+    error.check_room(changes.clone())?;
+    let change_errors = || {
+        error.apply_all(changes);
+        error.compact();
+    };
+    let change_mesh = || {
+        for plan in plans {
+            plan.replace_star(surface, seams.as_mut(), names.as_deref(), recorder);
+        }
+        surface.compact();
+    };
+    rayon::join(change_errors, change_mesh);
+    Ok(())
+}
+
+/// What plans of one batch change outside their own stars: a later one that wants to change the same has been overtaken.
+///
+/// New edges and triangles have few bits for many of them, so that now and then one counts as claimed that is not.
+#[derive(Clone, Debug, Default)]
+pub struct Claims {
+    /// A bit for each source edge.
+    moved: Marks,
+    /// A bit for each [`key`] of an edge or a triangle.
+    made: Marks,
+}
+
+impl Claims {
+    /// Whether the plan is independent of all that was claimed so far: none of them makes one of its edges or its only triangle, or
+    /// moves a source edge that it moves. If so, claims what it changes.
+    pub fn claim(&mut self, plan: &Plan) -> bool {
+        let is_independent =
+            !moved(plan).any(|edge| self.moved.has(edge)) && !made(plan).any(|key| self.made.has(key));
+        if is_independent {
+            moved(plan).for_each(|edge| self.moved.set(edge));
+            made(plan).for_each(|key| self.made.set(key));
+        }
+        is_independent
+    }
+
+    /// Takes back all claims, which were those of `plans`.
+    pub fn clear(&mut self, plans: &[Box<Plan>]) {
+        plans.iter().flat_map(|plan| moved(plan)).for_each(|edge| self.moved.clear_around(edge));
+        plans.iter().flat_map(|plan| made(plan)).for_each(|key| self.made.clear_around(key));
+    }
+}
+
+/// Source edges that the plan moves.
+fn moved(plan: &Plan) -> impl Iterator<Item = u32> {
+    plan.change().1.moved_edges()
+}
+
+/// Keys of the edges that the plan makes, and of its triangle where that is the only one.
+fn made(plan: &Plan) -> impl Iterator<Item = u32> {
+    plan.new_edges().map(|edge| key(&edge)).chain(plan.lid().map(|lid| key(&lid)))
+}
+
+/// The same number below 2^18 for the same vertices, hardly ever the same for others.
+fn key(vertices: &[u32]) -> u32 {
+    const ODD: u32 = 0x9e37_79b1;
+    vertices.iter().fold(0, |key: u32, v| (key.rotate_left(5) ^ v).wrapping_mul(ODD)) >> 14
+}
+
+/// A set of numbers, a bit each.
+#[derive(Clone, Debug, Default)]
+struct Marks(Vec<u64>);
+
+impl Marks {
+    fn has(&self, number: u32) -> bool {
+        let (word, bit) = place(number);
+        self.0.get(word).is_some_and(|marks| marks & bit != 0)
+    }
+
+    fn set(&mut self, number: u32) {
+        let (word, bit) = place(number);
+        if word >= self.0.len() {
+            self.0.resize(word + 1, 0);
+        }
+        self.0[word] |= bit;
+    }
+
+    /// Takes out the number and maybe others, of those that were put in.
+    fn clear_around(&mut self, number: u32) {
+        self.0[place(number).0] = 0;
+    }
+}
+
+/// The word in which a number has its bit, and that bit.
+fn place(number: u32) -> (usize, u64) {
+    ((number / u64::BITS) as usize, 1 << (number % u64::BITS))
+}
