@@ -3,12 +3,21 @@
 //! Some five triangles die for every vertex of the input, and nobody reads them before the decimator is done. As a history holds them
 //! they take 20 bytes each, and would be the most of what a build keeps in memory. But those that die together share corners, births
 //! and the step: written as differences from the one before, a triangle takes 6 to 8 bytes.
+//!
+//! Which corners a record has and how long its numbers are follows no pattern that a processor could guess. So there are no branches for
+//! either: a number is a word that is written whole, and the next begins where its last byte that counts ends, or where it began itself.
 
 /// Bytes of a chunk. Chunks neither move while they fill nor stay when they have been read: allocators map blocks of this size.
 const CHUNK_BYTES: usize = 1 << 17;
 
-/// Most bytes of a record: corner codes, corners, birth and step.
-const MAX_RECORD_BYTES: usize = 1 + 4 * 5 + 6 + 5;
+/// Most bytes of a number: its 35 bits, seven a byte.
+const MAX_NUMBER_BYTES: usize = 5;
+
+/// Bytes that are written or read for a number, whatever its length.
+const WORD_BYTES: usize = size_of::<u64>();
+
+/// Room for a record, the last of its numbers as a whole word: corner codes, up to four corners, birth and step.
+const ROOM_BYTES: usize = 1 + (4 + 1) * MAX_NUMBER_BYTES + WORD_BYTES;
 
 /// Code of a corner that is none of the first three of the simplex before.
 const NEW: u8 = 3;
@@ -27,9 +36,17 @@ const STEP_BITS: u32 = 2;
 /// Memory: 6 to 8 bytes per triangle where neighbours have near numbers, at most 32.
 #[derive(Clone, Debug)]
 pub(super) struct Deaths<const CORNERS: usize> {
-    chunks: Vec<Vec<u8>>,
+    chunks: Vec<Chunk>,
     len: usize,
     last: Record<CORNERS>,
+}
+
+/// Records one after the other, with room for one more behind them.
+#[derive(Clone, Debug)]
+struct Chunk {
+    bytes: Vec<u8>,
+    /// Where the records end.
+    end: usize,
 }
 
 /// A simplex that has lived.
@@ -48,6 +65,7 @@ impl<const CORNERS: usize> Record<CORNERS> {
 impl<const CORNERS: usize> Deaths<CORNERS> {
     /// Nobody has died.
     pub(super) fn new() -> Self {
+        const { assert!(CORNERS <= 4, "a room is for so many corners") };
         Self { chunks: vec![], len: 0, last: Record::START }
     }
 
@@ -58,72 +76,92 @@ impl<const CORNERS: usize> Deaths<CORNERS> {
 
     /// Writes one down that dies no earlier than the one before, and after its birth.
     pub(super) fn push(&mut self, record: Record<CORNERS>) {
-        let last = std::mem::replace(&mut self.last, record);
+        if self.chunks.last().is_none_or(|chunk| chunk.end + ROOM_BYTES > CHUNK_BYTES) {
+            self.chunks.push(Chunk { bytes: vec![0; CHUNK_BYTES], end: 0 });
+        }
+        // There is a last chunk, and room in it.
+        let Some(Chunk { bytes, end }) = self.chunks.last_mut() else { return };
+        let Some(room) = bytes[*end..].first_chunk_mut() else { return };
+        *end += write(room, record, self.last);
+        self.last = record;
         self.len += 1;
-        let chunk = match self.chunks.last_mut() {
-            Some(chunk) if chunk.len() + MAX_RECORD_BYTES <= CHUNK_BYTES => chunk,
-            _ => {
-                self.chunks.push(Vec::with_capacity(CHUNK_BYTES));
-                let at = self.chunks.len() - 1;
-                &mut self.chunks[at]
-            }
-        };
-        let codes = record.simplex.map(|v| code(&last.simplex, v));
-        chunk.push((0..).zip(codes).fold(0, |all, (at, code)| all | code << (2 * at)));
-        for (v, _) in record.simplex.into_iter().zip(codes).filter(|&(_, code)| code == NEW) {
-            put(chunk, zigzag(v, last.simplex[0]));
-        }
-        let n_steps = u64::from(record.death - last.death);
-        let age = match record.birth {
-            birth if birth == last.birth => BIRTH_AS_BEFORE,
-            0 => BIRTH_AT_START,
-            birth => FIRST_AGE + u64::from(record.death - birth),
-        };
-        put(chunk, age << STEP_BITS | n_steps.min(LATER));
-        if n_steps >= LATER {
-            put(chunk, n_steps);
-        }
     }
 
     /// Shows `take` all of them in order, letting go of what has been read.
     pub(super) fn drain(self, mut take: impl FnMut(Record<CORNERS>)) {
         let mut last = Record::START;
-        for chunk in self.chunks {
-            let mut bytes = chunk.as_slice();
-            while let Some(record) = read(&mut bytes, last) {
+        for Chunk { bytes, end } in self.chunks {
+            let mut at = 0;
+            while at < end
+                && let Some(room) = bytes[at..].first_chunk()
+            {
+                let (record, len) = read(room, last);
                 take(record);
                 last = record;
+                at += len;
             }
         }
     }
 }
 
-/// The next record of a chunk, or `None` at its end.
-fn read<const CORNERS: usize>(bytes: &mut &[u8], last: Record<CORNERS>) -> Option<Record<CORNERS>> {
-    let (&codes, rest) = bytes.split_first()?;
-    *bytes = rest;
-    let simplex = std::array::from_fn(|at| match codes >> (2 * at) & NEW {
-        NEW => unzigzag(get(bytes), last.simplex[0]),
-        code => last.simplex[usize::from(code)],
-    });
-    let value = get(bytes);
-    let n_steps = match value & ((1 << STEP_BITS) - 1) {
-        LATER => get(bytes),
-        n_steps => n_steps,
+/// Writes `record` as a difference from `last`; gives its bytes.
+fn write<const CORNERS: usize>(
+    room: &mut [u8; ROOM_BYTES],
+    record: Record<CORNERS>,
+    last: Record<CORNERS>,
+) -> usize {
+    let (mut codes, mut len) = (0, 1);
+    for (at, &v) in record.simplex.iter().enumerate() {
+        let code = code(&last.simplex, v);
+        codes |= code << (2 * at);
+        let end = put(room, len, zigzag(v, last.simplex[0]));
+        len = if code == NEW { end } else { len };
+    }
+    room[0] = codes;
+    let n_steps = u64::from(record.death - last.death);
+    let age = match record.birth {
+        birth if birth == last.birth => BIRTH_AS_BEFORE,
+        0 => BIRTH_AT_START,
+        birth => FIRST_AGE + u64::from(record.death - birth),
     };
+    len = put(room, len, age << STEP_BITS | n_steps.min(LATER));
+    if n_steps >= LATER {
+        len = put(room, len, n_steps);
+    }
+    len
+}
+
+/// The record at the beginning of `room`, and its bytes.
+fn read<const CORNERS: usize>(room: &[u8; ROOM_BYTES], last: Record<CORNERS>) -> (Record<CORNERS>, usize) {
+    let mut simplex = last.simplex;
+    let mut len = 1;
+    for (at, v) in simplex.iter_mut().enumerate() {
+        let code = room[0] >> (2 * at) & NEW;
+        let (value, end) = get(room, len);
+        (*v, len) = match code {
+            NEW => (unzigzag(value, last.simplex[0]), end),
+            code => (last.simplex[usize::from(code)], len),
+        };
+    }
+    let (value, mut len) = get(room, len);
+    let mut n_steps = value & ((1 << STEP_BITS) - 1);
+    if n_steps == LATER {
+        (n_steps, len) = get(room, len);
+    }
     let death = last.death.wrapping_add(low(n_steps));
     let birth = match value >> STEP_BITS {
         BIRTH_AS_BEFORE => last.birth,
         BIRTH_AT_START => 0,
         age => death.wrapping_sub(low(age - FIRST_AGE)),
     };
-    Some(Record { simplex, birth, death })
+    (Record { simplex, birth, death }, len)
 }
 
-/// Which of the first three corners of the simplex before `v` is.
+/// Which of the first three corners of the simplex before `v` is, the first of them.
 #[expect(clippy::cast_possible_truncation, reason = "a place among three")]
 fn code<const CORNERS: usize>(last: &[u32; CORNERS], v: u32) -> u8 {
-    last.iter().take(usize::from(NEW)).position(|&corner| corner == v).map_or(NEW, |at| at as u8)
+    let places = last.iter().enumerate().take(usize::from(NEW)).rev();
+    places.fold(NEW, |code, (at, &corner)| if corner == v { at as u8 } else { code })
 }
 
 /// The difference of two numbers, small where they are near.
@@ -145,26 +183,28 @@ fn low(value: u64) -> u32 {
     value as u32
 }
 
-/// Writes a number by seven bits a byte, lowest first, the highest bit of each telling whether there are more.
-fn put(bytes: &mut Vec<u8>, mut value: u64) {
-    while value >= 0x80 {
-        bytes.push((value & 0x7f) as u8 | 0x80);
-        value >>= 7;
-    }
-    bytes.push((value & 0x7f) as u8);
+/// The highest bit of each byte of a number but its last.
+const MORE: u64 = 0x80_8080_8080;
+
+/// Writes a number of at most 35 bits by seven bits a byte, lowest first, the highest bit of each telling whether there are more; gives
+/// where it ends.
+fn put(room: &mut [u8; ROOM_BYTES], at: usize, value: u64) -> usize {
+    let n_bytes = 1 + (value | 1).ilog2() as usize / 7;
+    let sevens = (0..MAX_NUMBER_BYTES).fold(0, |word, i| word | (value & 0x7f << (7 * i)) << i);
+    let word = sevens | MORE & !(u64::MAX << (8 * (n_bytes - 1)));
+    room[at..at + WORD_BYTES].copy_from_slice(&word.to_le_bytes());
+    at + n_bytes
 }
 
-fn get(bytes: &mut &[u8]) -> u64 {
-    let mut value = 0;
-    for shift in (0..u64::BITS).step_by(7) {
-        let Some((&byte, rest)) = bytes.split_first() else { break };
-        *bytes = rest;
-        value |= u64::from(byte & 0x7f) << shift;
-        if byte & 0x80 == 0 {
-            break;
-        }
-    }
-    value
+/// The number at a place, and where it ends.
+fn get(room: &[u8; ROOM_BYTES], at: usize) -> (u64, usize) {
+    let word = room[at..].first_chunk().map_or(0, |&bytes| u64::from_le_bytes(bytes));
+    // The lowest byte without the bit is the last; all above its lowest bit goes.
+    let last = !word & MORE;
+    let n_bytes = 1 + last.trailing_zeros() as usize / 8;
+    let word = word & (last ^ last.wrapping_sub(1));
+    let value = (0..MAX_NUMBER_BYTES).fold(0, |value, i| value | (word & 0x7f << (8 * i)) >> i);
+    (value, at + n_bytes)
 }
 
 #[cfg(test)]
@@ -210,6 +250,29 @@ mod tests {
     }
 
     #[test]
+    fn numbers_of_every_length_end_where_the_next_begins() {
+        let around = |bits: u32| [(1_u64 << bits) - 1, 1 << bits];
+        for value in (0..35).flat_map(around).chain([(1 << 35) - 1]) {
+            let n_bytes = (1..).find(|n_bytes| value >> (7 * n_bytes) == 0).unwrap();
+            let mut room = [0xff; ROOM_BYTES];
+            for at in [1, ROOM_BYTES - WORD_BYTES] {
+                assert_eq!(put(&mut room, at, value), at + n_bytes, "{value:#x}");
+                assert_eq!(get(&room, at), (value, at + n_bytes), "{value:#x}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_longest_records_fill_chunks_to_their_ends() {
+        let far =
+            |at: u32| [[0, 1, 2, 3], [u32::MAX, u32::MAX - 1, u32::MAX - 2, u32::MAX - 3]][at as usize % 2];
+        check::<4>((0..9000).map(|at| (far(at), at, 1 << 18)).collect());
+        let record = Record { simplex: [u32::MAX; 4], birth: 1, death: u32::MAX };
+        let longest = 1 + (4 + 2) * MAX_NUMBER_BYTES;
+        assert_eq!(write(&mut [0; ROOM_BYTES], record, Record::START), longest);
+    }
+
+    #[test]
     fn chunks_follow_one_another_and_neighbours_take_few_bytes() {
         let fans = (0..40_000_u32)
             .map(|at| ([at / 6, at % 6 + 1000, (at + 1) % 6 + 1000], at / 7, u32::from(at % 6 == 0)));
@@ -219,7 +282,10 @@ mod tests {
             death += n_steps;
             deaths.push(Record { simplex, birth, death });
         }
-        assert!(deaths.chunks.len() > 1 && deaths.chunks.iter().map(Vec::len).sum::<usize>() < 8 * 40_000);
+        assert!(
+            deaths.chunks.len() > 1
+                && deaths.chunks.iter().map(|chunk| chunk.end).sum::<usize>() < 8 * 40_000
+        );
         check(fans.collect());
     }
 }
