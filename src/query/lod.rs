@@ -154,7 +154,7 @@ impl Lod {
         self.file.header().n_corners
     }
 
-    /// Simplices that are alive at some level.
+    /// Stored lifetimes; a simplex may have several.
     pub fn n_lifetimes(&self) -> u64 {
         self.file.header().n_lifetimes
     }

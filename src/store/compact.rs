@@ -77,13 +77,6 @@ impl<'a> Narrow<'a> {
             Self::U32(numbers) => numbers.get(place).copied(),
         }
     }
-
-    fn len(self) -> usize {
-        match self {
-            Self::U16(numbers) => numbers.len(),
-            Self::U32(numbers) => numbers.len(),
-        }
-    }
 }
 
 /// The sections of the compact form.
@@ -131,12 +124,12 @@ pub enum CompactFault {
         /// Slots there are.
         n_slots: u64,
     },
-    /// A source that is no simplex.
-    #[error("a repeat names simplex {found} of {n_distinct}")]
+    /// A source that is no simplex of an earlier slot.
+    #[error("a repeat names simplex {found} of the {n_distinct} before it")]
     Source {
         /// Its value.
         found: u64,
-        /// Distinct simplices there are.
+        /// Distinct simplices of the slots before.
         n_distinct: u64,
     },
 }
@@ -172,8 +165,7 @@ impl CompactSections<'_> {
         Ok(Expanded { simplices, stamps })
     }
 
-    /// Checks that bits and sources are as many as there are repeats, and that every source is one of the distinct
-    /// simplices.
+    /// Checks that bits and sources are as many as there are repeats, and that every source is the simplex of an earlier slot.
     pub(super) fn check(self) -> Result<(), CompactFault> {
         let n_set: u64 = self.repeat_bits.iter().map(|word| u64::from(word.count_ones())).sum();
         let n_sources = self.repeat_sources.len() as u64;
@@ -184,11 +176,16 @@ impl CompactSections<'_> {
         if let Some(slot) = behind.find(|&slot| self.is_repeat(slot)) {
             return Err(CompactFault::Slot { found: slot as u64, n_slots: self.n_slots as u64 });
         }
-        let n_distinct = (self.distinct.len() / self.n_corners) as u64;
-        match self.repeat_sources.iter().find(|&&source| u64::from(source) >= n_distinct) {
-            Some(&source) => Err(CompactFault::Source { found: source.into(), n_distinct }),
-            None => Ok(()),
+        let mut sources = self.repeat_sources.iter();
+        let mut n_distinct = 0;
+        for slot in 0..self.n_slots {
+            if !self.is_repeat(slot) {
+                n_distinct += 1;
+            } else if let Some(&found) = sources.next().filter(|&&source| u64::from(source) >= n_distinct) {
+                return Err(CompactFault::Source { found: found.into(), n_distinct });
+            }
         }
+        Ok(())
     }
 
     fn is_repeat(self, slot: usize) -> bool {

@@ -36,7 +36,7 @@ pub struct StoreOptions {
 pub struct StoreReport {
     /// Levels of the file.
     pub n_levels: u32,
-    /// Simplices that are alive at some level.
+    /// Stored lifetimes; a simplex may have several.
     pub n_lifetimes: u32,
     /// Stored copies of simplices.
     pub n_slots: u32,

@@ -115,6 +115,10 @@ fn compact() -> Cases {
             "compact-source-out-of-range",
             compact.section::<u32>(SectionKind::RepeatSources, |s| s[0] = u32::MAX),
         ),
+        (
+            "compact-source-of-a-later-slot",
+            compact.section::<u32>(SectionKind::RepeatSources, |s| s[0] = *s.iter().max().unwrap()),
+        ),
         ("compact-source-another", compact.section::<u32>(SectionKind::RepeatSources, |s| s[0] ^= 1)),
         (
             "compact-simplices-all-ones",

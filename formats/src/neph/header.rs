@@ -42,7 +42,7 @@ pub struct Header {
     pub n_vertices: u64,
     /// Stored copies of simplices.
     pub n_slots: u64,
-    /// Simplices that are alive at some level.
+    /// Stored lifetimes; a simplex may have several.
     pub n_lifetimes: u64,
     /// Added to every position to give the coordinates of the input, in mesh units.
     pub origin: [f64; 3],
