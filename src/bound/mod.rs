@@ -118,11 +118,11 @@ impl GlobalError {
 impl Change {
     /// Source edges that get another way over the mesh.
     pub fn moved_edges(&self) -> impl Iterator<Item = u32> {
-        let of_map = match self {
-            Self::Certified(change) => Some(change),
-            Self::Estimate(_) => None,
+        let chains = match self {
+            Self::Certified(change) => change.chains.as_slice(),
+            Self::Estimate(_) => &[],
         };
-        of_map.into_iter().flat_map(certified::Change::moved_edges)
+        chains.iter().map(|chain| chain.edge)
     }
 }
 

@@ -98,15 +98,18 @@ struct Weld {
 
 fn weld(mesh: &TriangleMesh) -> Weld {
     let n_vertices = vertex_count(mesh);
-    let mut order: Vec<u32> = (0..n_vertices).collect();
-    order.par_sort_unstable_by(|&a, &b| compare_vertices(mesh, a, b).then(a.cmp(&b)));
+    let order = order_by(mesh.positions.len(), |v| position_key(mesh, v));
     let mut vertices: Vec<u32> = (0..n_vertices).collect();
     let (mut points, mut looks) = (vertices.clone(), vertices.clone());
+    let mut sorted = vec![];
     for same_place in order.chunk_by(|&a, &b| position_key(mesh, a) == position_key(mesh, b)) {
-        let point = lowest(same_place);
-        for same_look in same_place.chunk_by(|&a, &b| compare_looks(mesh, a, b).is_eq()) {
+        let &[point, _, ..] = same_place else { continue };
+        sorted.clear();
+        sorted.extend_from_slice(same_place);
+        sorted.sort_by(|&a, &b| compare_attributes_of(mesh, a, b));
+        for same_look in sorted.chunk_by(|&a, &b| compare_looks(mesh, a, b).is_eq()) {
             let look = lowest(same_look);
-            for same in same_look.chunk_by(|&a, &b| compare_vertices(mesh, a, b).is_eq()) {
+            for same in same_look.chunk_by(|&a, &b| compare_attributes_of(mesh, a, b).is_eq()) {
                 for &v in same {
                     vertices[v as usize] = same[0];
                     points[v as usize] = point;
@@ -127,10 +130,20 @@ fn vertex_count(mesh: &TriangleMesh) -> u32 {
     mesh.positions.len() as u32
 }
 
-/// By position, then by look, then by normal.
-fn compare_vertices(mesh: &TriangleMesh, a: u32, b: u32) -> Ordering {
-    let by_position = || position_key(mesh, a).cmp(&position_key(mesh, b));
-    by_position().then_with(|| compare_looks(mesh, a, b)).then_with(|| {
+/// The numbers below `n` in ascending order of their keys, then of themselves.
+#[expect(clippy::cast_possible_truncation, reason = "the lowest bits are the number")]
+fn order_by(n: usize, key: impl Fn(u32) -> [u32; 3]) -> Vec<u32> {
+    let with_number = |number: u32| {
+        key(number).into_iter().chain([number]).fold(0_u128, |all, word| all << u32::BITS | u128::from(word))
+    };
+    let mut keys: Vec<u128> = (0..).take(n).map(with_number).collect();
+    keys.par_sort_unstable();
+    keys.into_iter().map(|key| key as u32).collect()
+}
+
+/// By look, then by normal.
+fn compare_attributes_of(mesh: &TriangleMesh, a: u32, b: u32) -> Ordering {
+    compare_looks(mesh, a, b).then_with(|| {
         compare_attributes(mesh.attributes.iter().filter(|attribute| is_normal(attribute)), a, b)
     })
 }
@@ -166,8 +179,8 @@ fn count_moved(vertices: &[u32]) -> usize {
 
 /// Drops every triangle whose points, in orientation, an earlier one has; returns how many.
 fn drop_duplicates(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> usize {
-    let key = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|v| points[v as usize]);
+    let key = |t: u32| {
+        let [a, b, c] = triangles[t as usize].map(|v| points[v as usize]);
         if a < b && a < c {
             [a, b, c]
         } else if b < c {
@@ -176,13 +189,10 @@ fn drop_duplicates(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> usize {
             [c, a, b]
         }
     };
-    let mut order: Vec<u32> = (0..).take(triangles.len()).collect();
-    order.par_sort_unstable_by_key(|&t| (key(&triangles[t as usize]), t));
     let mut keep = vec![true; triangles.len()];
-    for pair in order.windows(2) {
-        let [first, second] = [pair[0] as usize, pair[1] as usize];
-        if key(&triangles[first]) == key(&triangles[second]) {
-            keep[second] = false;
+    for pair in order_by(triangles.len(), key).windows(2) {
+        if key(pair[0]) == key(pair[1]) {
+            keep[pair[1] as usize] = false;
         }
     }
     let n_before = triangles.len();

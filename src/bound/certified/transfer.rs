@@ -30,7 +30,7 @@ pub struct Change {
     /// Every vertex mapped into the hole, by label.
     pub(super) assignments: Vec<Assignment>,
     /// Every source edge that needs or needed a chain through the hole.
-    pub(super) chains: Vec<NewChain>,
+    pub(in crate::bound) chains: Vec<NewChain>,
     /// The new chains, one after another.
     pub(super) portions: Vec<Portion>,
     /// Labels of the filling's triangles and the edges that have portions there, by label.
@@ -49,8 +49,8 @@ pub(super) struct Assignment {
 
 /// A source edge that gets another chain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NewChain {
-    pub(super) edge: u32,
+pub(in crate::bound) struct NewChain {
+    pub(in crate::bound) edge: u32,
     /// Where the new one ends among the portions.
     pub(super) end: usize,
 }
@@ -178,11 +178,6 @@ impl Transfer {
 }
 
 impl Change {
-    /// Source edges that get another chain.
-    pub fn moved_edges(&self) -> impl Iterator<Item = u32> {
-        self.chains.iter().map(|chain| chain.edge)
-    }
-
     /// Gives the source edges that the removal moves their new chains.
     pub(super) fn set_chains(&self, chains: &mut Chains) {
         let mut start = 0;

@@ -70,18 +70,19 @@ impl Claims {
     /// moves a source edge that it moves. If so, claims what it changes.
     pub fn claim(&mut self, plan: &Plan) -> bool {
         let is_independent =
-            !moved(plan).any(|edge| self.moved.has(edge)) && !made(plan).any(|key| self.made.has(key));
+            made(plan).all(|key| !self.made.has(key)) && moved(plan).all(|edge| !self.moved.has(edge));
+        // Only then: a plan may well have two edges with one key, and is not overtaken by itself.
         if is_independent {
-            moved(plan).for_each(|edge| self.moved.set(edge));
-            made(plan).for_each(|key| self.made.set(key));
+            made(plan).for_each(|key| self.made.insert(key));
+            moved(plan).for_each(|edge| self.moved.insert(edge));
         }
         is_independent
     }
 
-    /// Takes back all claims, which were those of `plans`.
-    pub fn clear(&mut self, plans: &[Box<Plan>]) {
-        plans.iter().flat_map(|plan| moved(plan)).for_each(|edge| self.moved.clear_around(edge));
-        plans.iter().flat_map(|plan| made(plan)).for_each(|key| self.made.clear_around(key));
+    /// Takes back all claims.
+    pub fn clear(&mut self) {
+        self.moved.clear();
+        self.made.clear();
     }
 }
 
@@ -103,25 +104,33 @@ fn key(vertices: &[u32]) -> u32 {
 
 /// A set of numbers, a bit each.
 #[derive(Clone, Debug, Default)]
-struct Marks(Vec<u64>);
+struct Marks {
+    bits: Vec<u64>,
+    members: Vec<u32>,
+}
 
 impl Marks {
+    #[inline]
     fn has(&self, number: u32) -> bool {
         let (word, bit) = place(number);
-        self.0.get(word).is_some_and(|marks| marks & bit != 0)
+        self.bits.get(word).is_some_and(|bits| bits & bit != 0)
     }
 
-    fn set(&mut self, number: u32) {
+    #[inline]
+    fn insert(&mut self, number: u32) {
         let (word, bit) = place(number);
-        if word >= self.0.len() {
-            self.0.resize(word + 1, 0);
+        if word >= self.bits.len() {
+            self.bits.resize(word + 1, 0);
         }
-        self.0[word] |= bit;
+        self.bits[word] |= bit;
+        self.members.push(number);
     }
 
-    /// Takes out the number and maybe others, of those that were put in.
-    fn clear_around(&mut self, number: u32) {
-        self.0[place(number).0] = 0;
+    /// Takes out all numbers. O(numbers).
+    fn clear(&mut self) {
+        for number in self.members.drain(..) {
+            self.bits[place(number).0] = 0;
+        }
     }
 }
 

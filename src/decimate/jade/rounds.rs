@@ -278,7 +278,7 @@ fn remove_all(
             candidates.set_verdict(v, verdict, decimation.c2);
         }
         carry_out(decimation, &plans)?;
-        claims.clear(&plans);
+        claims.clear();
         touched.extend(plans.iter().flat_map(|plan| &plan.change().0.ring));
         batch = overtaken;
         batch.extend(next);
