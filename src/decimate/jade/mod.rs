@@ -2,9 +2,9 @@
 //!
 //! A. Ciampalini, P. Cignoni, C. Montani and R. Scopigno, "Multiresolution decimation based on global error", *The
 //! Visual Computer* 13, 1997. The paper goes through the vertices one by one, under limits that rise from iteration to
-//! iteration, and removes whatever is below them. Here an iteration works in rounds: all candidates are judged in
-//! parallel, then an independent set of them, cheapest first, is removed. No heap is needed, and the result does not
-//! depend on the number of threads.
+//! iteration, and removes whatever is below them. Here an iteration works in rounds over an independent set, cheapest first:
+//! its candidates are judged in parallel, a batch at a time, and those within the limits removed. No heap is needed, and the
+//! result does not depend on the number of threads.
 
 pub mod asked;
 pub mod batch;
