@@ -51,6 +51,30 @@ fn surfaces_of_every_topology_go_down_to_nothing() {
 }
 
 #[test]
+fn no_star_grows_over_a_flat_part() {
+    const N: u32 = 1500;
+    // Two rows of vertices with slivers between them: all errors are zero until nothing is left but the corners.
+    let row = |y: f32| (0..N).map(move |i| [i as f32, y, 0.0]);
+    let slivers = (1..N).flat_map(|i| [[i - 1, i, N + i - 1], [i, N + i, N + i - 1]]);
+    let mesh = TriangleMesh {
+        positions: row(0.0).chain(row(3.0)).collect(),
+        triangles: slivers.collect(),
+        ..TriangleMesh::default()
+    };
+    let history = decimate(&mesh, |_| {}).history;
+    for percent in (5..100).step_by(5) {
+        let step = (history.errors.len() * percent / 100) as u32;
+        let lives = history.birth.iter().zip(&history.death);
+        let alive = lives.map(|(&birth, &death)| birth <= step && step < death);
+        let mut valence = vec![0; mesh.positions.len()];
+        let simplices = history.simplices.iter().zip(alive).filter(|&(_, is_alive)| is_alive);
+        simplices.flat_map(|(simplex, _)| simplex).for_each(|&v| valence[v as usize] += 1);
+        let largest = valence.into_iter().max().unwrap();
+        assert!(largest <= 8, "{largest} triangles at one vertex after step {step}");
+    }
+}
+
+#[test]
 fn vertices_judged_many_at_once_leave_the_same_on_any_number_of_threads() {
     for mesh in [generate::sphere(32), generate::terrain(100, 1)] {
         let on = |threads| {

@@ -1,12 +1,16 @@
 //! Vertices in the order of their errors (section 4.4): a heap from which any vertex can be taken.
 //!
 //! The paper's heap is binary. This one has four children a node, which halves its height, and keeps key and vertex in one
-//! word, so that a comparison touches nothing else. Equal errors are ordered by vertex: the order of removals is a fact of the mesh.
+//! word, so that a comparison touches nothing else.
+//!
+//! Equal errors are ordered by vertex, the even ones first, then every second of those that are left, and so on: by the bits of their
+//! numbers, the lowest foremost. Flat parts have nothing but equal errors, and vertices of near numbers are neighbours there; one
+//! after the other they would go into one vertex, whose star grows, and whose triangles reach ever farther over the part.
 
 /// A priority queue of vertices, the least error first.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
-    /// Error bits above, vertex below; children of `i` are `4 i + 1 ..= 4 i + 4`.
+    /// Error bits above, those of the vertex below in reverse; children of `i` are `4 i + 1 ..= 4 i + 4`.
     heap: Vec<u64>,
     /// Where each vertex is in the heap, or [`ABSENT`].
     places: Vec<u32>,
@@ -137,13 +141,13 @@ impl Queue {
 fn pack(vertex: u32, error: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, reason = "the order among nearly equal errors is free")]
     let error = error as f32;
-    u64::from(error.to_bits()) << 32 | u64::from(vertex)
+    u64::from(error.to_bits()) << 32 | u64::from(vertex.reverse_bits())
 }
 
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "takes the halves of a word apart")]
 fn unpack(entry: u64) -> (u32, f64) {
-    (entry as u32, f64::from(f32::from_bits((entry >> 32) as u32)))
+    ((entry as u32).reverse_bits(), f64::from(f32::from_bits((entry >> 32) as u32)))
 }
 
 #[cfg(test)]
@@ -160,9 +164,9 @@ mod tests {
             for (vertex, error, what) in operations {
                 match what {
                     0 => {
-                        let least = errors.iter().map(|(&v, &e)| (e, v)).min();
-                        prop_assert_eq!(queue.pop(), least.map(|(e, v)| (v, f64::from(e))));
-                        least.map(|(_, v)| errors.remove(&v));
+                        let least = errors.iter().map(|(&v, &e)| (e, v.reverse_bits(), v)).min();
+                        prop_assert_eq!(queue.pop(), least.map(|(e, _, v)| (v, f64::from(e))));
+                        least.map(|(.., v)| errors.remove(&v));
                     }
                     1 => {
                         queue.delete(vertex);
@@ -176,5 +180,14 @@ mod tests {
                 prop_assert_eq!(queue.is_empty(), errors.is_empty());
             }
         }
+    }
+
+    #[test]
+    fn of_equal_errors_every_second_goes_first() {
+        let mut queue = Queue::new(8);
+        (0..8).for_each(|v| queue.set(v, 1.0));
+        queue.set(5, 0.5);
+        let order: Vec<u32> = std::iter::from_fn(|| queue.pop()).map(|(v, _)| v).collect();
+        assert_eq!(order, [5, 0, 4, 2, 6, 1, 3, 7]);
     }
 }
