@@ -11,6 +11,7 @@ mod arrange;
 mod attributes;
 mod body;
 mod compact;
+mod content;
 mod error;
 mod integrity;
 mod map;
