@@ -167,3 +167,54 @@ impl Hole {
         high == low + 1 || (self.closed && low == 0 && high + 1 == self.ring.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    /// Whether the triangles `(0, from, to)` make one round of at least three, or one chain: no vertex has two on one side, one piece
+    /// holds them all, and it has as many edges as a round or a chain of its vertices has.
+    fn is_disk(spokes: &[[u32; 2]]) -> bool {
+        let distinct = |side: usize| spokes.iter().map(|spoke| spoke[side]).collect::<BTreeSet<u32>>().len();
+        let mut reached: BTreeSet<u32> = spokes[0].into();
+        for _ in spokes {
+            let more = spokes.iter().filter(|spoke| spoke.iter().any(|v| reached.contains(v))).flatten();
+            reached = more.copied().collect();
+        }
+        let all: BTreeSet<u32> = spokes.iter().flatten().copied().collect();
+        let is_round = all.len() == spokes.len();
+        distinct(0) == spokes.len()
+            && distinct(1) == spokes.len()
+            && reached == all
+            && (!is_round || spokes.len() >= 3)
+    }
+
+    proptest! {
+        #[test]
+        fn stars_are_disks_half_disks_or_complex(
+            spokes in prop::collection::vec((1_u32..6, 1_u32..5).prop_map(|(a, b)| [a, if b < a { b } else { b + 1 }]), 1..6),
+            start in 0_usize..5,
+            is_tidy in any::<bool>(),
+        ) {
+            // Half of them a round or a chain in the first place, in some order.
+            let n = u32::try_from(spokes.len()).unwrap();
+            let tidy: Vec<[u32; 2]> = (0..n).map(|i| [1 + i, 1 + (i + 1) % (n + u32::from(start < 2))]).collect();
+            let mut spokes = if is_tidy && n >= 3 { tidy } else { spokes };
+            let at = start % spokes.len();
+            spokes.rotate_left(at);
+            let triangles = spokes.iter().map(|&[from, to]| [0, from, to]).collect();
+            let surface = Surface::new(vec![[0.0; 3]; 8], triangles);
+            let mut hole = Hole::default();
+            let found = hole.gather(&surface, 0);
+            prop_assert_eq!(found.is_ok(), is_disk(&spokes));
+            if found.is_ok() {
+                let of_slot = |&slot: &u32| spokes[slot as usize];
+                prop_assert!(hole.slots.iter().map(of_slot).enumerate().all(|(i, [from, to])| from == hole.ring[i] && to == hole.ring[hole.next(i)]));
+                prop_assert_eq!(hole.closed, hole.ring.len() == spokes.len());
+                prop_assert_eq!(hole.slots.len(), spokes.len());
+            }
+        }
+    }
+}

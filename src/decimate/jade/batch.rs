@@ -138,3 +138,81 @@ impl Marks {
 fn place(number: u32) -> (usize, u64) {
     ((number / u64::BITS) as usize, 1 << (number % u64::BITS))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bound::GlobalError;
+    use crate::bound::certified::Certified;
+    use crate::decimate::jade::candidate::{Scratch, Situation};
+    use crate::generate::{sphere, torus};
+    use crate::mesh::Surface;
+    use nephrite_formats::TriangleMesh;
+    use std::collections::HashSet;
+
+    /// Two pyramids on one triangle, and on one square.
+    fn bipyramid(corners: u32) -> TriangleMesh {
+        let around = (0..corners).map(|i| std::f32::consts::TAU * i as f32 / corners as f32);
+        let mut positions: Vec<[f32; 3]> = around.map(|angle| [angle.cos(), angle.sin(), 0.0]).collect();
+        positions.extend([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]);
+        let sides = (0..corners).map(|i| (i, (i + 1) % corners));
+        let triangles = sides.flat_map(|(i, j)| [[i, j, corners], [j, i, corners + 1]]).collect();
+        TriangleMesh { positions, triangles, ..TriangleMesh::default() }
+    }
+
+    /// Plans for vertices of which no two are neighbours, the last ones first: of a bipyramid the two tops.
+    fn plan_independent(surface: &Surface, error: &GlobalError) -> Vec<Plan> {
+        let situation = Situation { surface, seams: None, error, cos_feature_angle: -1.0, aspect_loss: 0.5 };
+        let mut scratch = Scratch::default();
+        let mut picked = HashSet::new();
+        let mut plans = vec![];
+        for v in (0..u32::try_from(surface.n_vertices()).unwrap()).rev() {
+            if picked.contains(&v) {
+                continue;
+            }
+            picked.extend(surface.star(v).iter().flat_map(|&slot| surface.corners(slot)));
+            plans.extend(plan(situation, v, Limits::NONE, &mut scratch).map(|plan| *plan));
+        }
+        plans
+    }
+
+    fn in_common<T: Eq + std::hash::Hash>(a: impl Iterator<Item = T>, b: impl Iterator<Item = T>) -> bool {
+        let a: HashSet<T> = a.collect();
+        b.into_iter().any(|item| a.contains(&item))
+    }
+
+    fn overlap(a: &Plan, b: &Plan) -> bool {
+        in_common(a.new_edges(), b.new_edges())
+            || in_common(a.lid().into_iter(), b.lid().into_iter())
+            || in_common(moved(a), moved(b))
+    }
+
+    #[test]
+    fn plans_that_are_carried_out_at_once_have_nothing_in_common() {
+        let mut n_overtaken = 0;
+        let meshes = [bipyramid(3), bipyramid(4), sphere(1), sphere(2), sphere(6), torus(4, 4), torus(7, 5)];
+        for mesh in meshes {
+            let mut surface = Surface::new(mesh.positions, mesh.triangles);
+            let error = GlobalError::Certified(Certified::new(&surface, 0.0));
+            let mut claims = Claims::default();
+            let (claimed, overtaken): (Vec<_>, Vec<_>) =
+                plan_independent(&surface, &error).into_iter().partition(|plan| claims.claim(plan));
+            assert!(!claimed.is_empty());
+            for (at, plan) in claimed.iter().enumerate() {
+                assert!(claimed[..at].iter().all(|earlier| !overlap(earlier, plan)));
+                // What the plan was made for is still so.
+                assert!(plan.new_edges().all(|[a, b]| surface.n_faces(a, b) == 0));
+                assert!(plan.lid().is_none_or(|lid| !surface.has_triangle(lid)));
+                let (hole, _) = plan.change();
+                let born: Vec<[u32; 3]> =
+                    (0..plan.filling.triangles.len()).map(|i| plan.filling.corners(hole, i)).collect();
+                surface.replace_star(hole.removed, &hole.slots, &born);
+            }
+            assert!(overtaken.iter().all(|plan| claimed.iter().any(|earlier| overlap(earlier, plan))));
+            n_overtaken += overtaken.len();
+            claims.clear();
+            assert!(overtaken.first().is_none_or(|plan| claims.claim(plan)));
+        }
+        assert!(n_overtaken > 1, "the two tops of a bipyramid close up in the same triangle");
+    }
+}

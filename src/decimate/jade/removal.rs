@@ -11,7 +11,7 @@ use crate::mesh::{Filling, Hole, Seams, Surface};
 pub struct Plan {
     /// The star that goes, without its points.
     pub hole: Hole,
-    filling: Filling,
+    pub(super) filling: Filling,
     error: f64,
     change: Change,
 }
