@@ -18,6 +18,11 @@ pub(crate) fn count(value: impl TryInto<u64>) -> String {
     grouped
 }
 
+/// A count of things, of which `thing` is one: `1 level`, `369 levels`.
+pub(crate) fn counted(n: usize, thing: &str) -> String {
+    format!("{} {thing}{}", count(n), if n == 1 { "" } else { "s" })
+}
+
 /// A number to four significant digits: `0.001234`, `12.35`, `1.235e-9`.
 pub(crate) fn significant(value: f64) -> String {
     let magnitude = value.abs();
@@ -129,6 +134,11 @@ mod tests {
             [0_u64, 999, 1000, 69_451, 1_234_567].map(count),
             ["0", "999", "1,000", "69,451", "1,234,567"]
         );
+    }
+
+    #[test]
+    fn one_thing_is_one() {
+        assert_eq!([0, 1, 1234].map(|n| counted(n, "level")), ["0 levels", "1 level", "1,234 levels"]);
     }
 
     #[test]

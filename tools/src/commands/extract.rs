@@ -79,7 +79,11 @@ impl Selector {
             let cut = lod.at_triangles(n_triangles as usize);
             if cut.n_triangles() > n_triangles as usize {
                 let found = figures::count(cut.n_triangles());
-                report::note(&format!("{}: the coarsest level has {found} triangles still", file.display()));
+                let simplices = if lod.n_corners() == 4 { "tetrahedra" } else { "triangles" };
+                report::note(&format!(
+                    "{}: the coarsest level has {found} {simplices} still",
+                    file.display()
+                ));
             }
             return Ok(cut);
         }

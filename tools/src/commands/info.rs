@@ -127,7 +127,8 @@ fn topology(log: &Value) -> String {
     let words = tallies.iter().filter_map(|tally| {
         let kind = tally["kind"].as_str()?.replace('_', " ");
         let error = figures::significant(tally["first"]["error"].as_f64()?);
-        Some(format!("{kind} {} times, first at error {error}", tally["count"]))
+        let times = figures::counted(usize::try_from(tally["count"].as_u64()?).ok()?, "time");
+        Some(format!("{kind} {times}, first at error {error}"))
     });
     let words: Vec<String> = words.collect();
     if words.is_empty() { "kept".to_owned() } else { words.join("; ") }

@@ -51,10 +51,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let n_levels: usize = curves.iter().map(|curve| curve.points.len()).sum();
     Ok(Report {
         text: format!(
-            "{}: {} levels of {} files\n",
+            "{}: {} of {}\n",
             arguments.output.display(),
-            figures::count(n_levels),
-            curves.len()
+            figures::counted(n_levels, "level"),
+            figures::counted(curves.len(), "file")
         ),
         json: json!({ "files": curves.len(), "levels": n_levels, "bytes": picture.len() }),
     })

@@ -90,9 +90,9 @@ fn export(site: &Site, folder: &Path) -> Result<Report, Failure> {
     let n_files = inputs.len();
     Ok(Report {
         text: format!(
-            "{}: the page and {} of files, {} in all. Any file server will do, such as\n  python3 -m http.server -d {}\n",
+            "{}: the page and {}, {} in all. Any file server will do, such as\n  python3 -m http.server -d {}\n",
             folder.display(),
-            n_files,
+            figures::counted(n_files, "file"),
             figures::bytes(n_bytes),
             folder.display(),
         ),
