@@ -66,7 +66,7 @@ fn contents() -> Cases {
     one_blank[4] = 0;
     vec![
         ("coordinate-nan", grid([3, 3, 2], |[x, y, z]| [x, if y > 1.0 { f32::NAN } else { y }, z])),
-        ("coordinate-infinity", grid([3, 3, 2], |[x, y, z]| [x, y, z / 0.0])),
+        ("coordinate-infinity", grid([3, 3, 2], |[x, y, z]| [x, y, if z > 0.0 { f32::INFINITY } else { z }])),
         ("coordinates-all-equal", grid([3, 3, 2], |_| [5.0; 3])),
         ("coordinates-planar", grid([3, 3, 2], |[x, y, _]| [x, y, 0.0])),
         ("coordinates-inside-out", grid([3, 3, 2], |[x, y, z]| [-x, y, z])),

@@ -17,7 +17,11 @@ use rayon::prelude::*;
 /// Removals that are planned before the first of them is carried out.
 const BATCH: usize = 512;
 
-/// The part of a ceiling's worklist that is left to the next ceiling: rounds over a few candidates each would end it.
+/// Candidates under one ceiling that are worked off together. They lie side by side on the surface, so that all that their removals
+/// read and write stays in the cache from round to round; fewer would leave too little for the threads.
+const BLOCK: usize = 1024;
+
+/// The part of a block that is left to the next ceiling: rounds over a few candidates each would end it.
 const FEW: usize = 3;
 
 /// What was last found of each vertex.
@@ -63,26 +67,11 @@ pub fn run(
     let mut limits = thresholds.limits();
     loop {
         candidates.admit(limits, &decimation.surface);
-        let is_last = thresholds.is_last();
         for ceiling in thresholds.ceilings() {
-            let waiting = std::mem::take(&mut candidates.waiting);
-            let mut worklist = candidates.sort_out(limits, ceiling, waiting);
-            let few = if is_last { 0 } else { worklist.len() / FEW };
-            while worklist.len() > few {
-                if !go_on(decimation) {
-                    return Err(Unfinished::Stopped);
-                }
-                let under = Limits { global: ceiling, ..limits };
-                let Round { touched, mut left } =
-                    remove_all(decimation, &mut candidates, &mut claims, under, &worklist)
-                        .map_err(Unfinished::TooLarge)?;
-                left.extend(candidates.touch(limits, is_last, touched));
-                worklist = candidates.sort_out(limits, ceiling, left);
-                if worklist.is_empty() && ceiling >= limits.global {
-                    worklist.extend(candidates.take_changed());
-                }
+            let stage = Stage { limits, ceiling, is_last: thresholds.is_last() };
+            for block in candidates.take_below(limits, ceiling).chunks(BLOCK) {
+                work_off(decimation, &mut candidates, &mut claims, stage, block, go_on)?;
             }
-            candidates.waiting.extend(worklist);
         }
         if placement::is_due(decimation) {
             let moved = placement::improve(decimation, &candidates.open);
@@ -94,6 +83,48 @@ pub fn run(
         let Some(next) = thresholds.advance(candidates.least_needed()) else { return Ok(()) };
         limits = next;
     }
+}
+
+/// The part of an iteration under one ceiling.
+#[derive(Clone, Copy, Debug)]
+struct Stage {
+    /// The limits of the iteration.
+    limits: Limits,
+    /// Most that a removal may err now, at most the global limit.
+    ceiling: f64,
+    /// Whether no other iteration follows.
+    is_last: bool,
+}
+
+/// Removes what is within the ceiling of a block and of what its removals touch, in rounds; the few that are left wait for the next
+/// ceiling.
+fn work_off(
+    decimation: &mut Decimation,
+    candidates: &mut Candidates,
+    claims: &mut Claims,
+    stage: Stage,
+    block: &[u32],
+    go_on: &dyn Fn(&Decimation) -> bool,
+) -> Result<(), Unfinished> {
+    let Stage { limits, ceiling, is_last } = stage;
+    // Other blocks have touched this one.
+    let mut worklist = candidates.sort_out(limits, ceiling, block);
+    let few = if is_last { 0 } else { worklist.len() / FEW };
+    while worklist.len() > few {
+        if !go_on(decimation) {
+            return Err(Unfinished::Stopped);
+        }
+        let under = Limits { global: ceiling, ..limits };
+        let Round { touched, mut left } =
+            remove_all(decimation, candidates, claims, under, &worklist).map_err(Unfinished::TooLarge)?;
+        left.extend(candidates.touch(limits, is_last, touched));
+        worklist = candidates.sort_out(limits, ceiling, &left);
+        if worklist.is_empty() && ceiling >= limits.global {
+            worklist.extend(candidates.take_changed());
+        }
+    }
+    candidates.waiting.extend(worklist);
+    Ok(())
 }
 
 impl Candidates {
@@ -141,6 +172,14 @@ impl Candidates {
         changed
     }
 
+    /// Takes those below the ceiling off those that wait, in ascending order: neighbours in it are neighbours on the surface.
+    fn take_below(&mut self, limits: Limits, ceiling: f64) -> Vec<u32> {
+        let waiting = std::mem::take(&mut self.waiting);
+        let mut below = self.sort_out(limits, ceiling, &waiting);
+        below.par_sort_unstable();
+        below
+    }
+
     /// Takes note that the stars of `touched` have changed; gives those that may be tried under these limits.
     fn touch(&mut self, limits: Limits, is_last: bool, mut touched: Vec<u32>) -> Vec<u32> {
         touched.retain(|&v| {
@@ -160,9 +199,9 @@ impl Candidates {
     /// Those of the given vertices below the ceiling, each once: cheapest first, as far as is known, ties to the lower vertex. Those
     /// above it wait, or are left to a later iteration.
     #[expect(clippy::cast_possible_truncation, reason = "the lower half of a key is the vertex")]
-    fn sort_out(&mut self, limits: Limits, ceiling: f64, vertices: Vec<u32>) -> Vec<u32> {
+    fn sort_out(&mut self, limits: Limits, ceiling: f64, vertices: &[u32]) -> Vec<u32> {
         let mut keys = Vec::with_capacity(vertices.len());
-        for v in vertices {
+        for &v in vertices {
             let (needed, found) = (self.needed[v as usize], self.found[v as usize]);
             if !is_admitted(needed, limits) {
                 continue;
