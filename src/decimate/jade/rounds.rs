@@ -108,7 +108,7 @@ fn work_off(
 ) -> Result<(), Unfinished> {
     let Stage { limits, ceiling, is_last } = stage;
     // Other blocks have touched this one.
-    let mut worklist = candidates.sort_out(limits, ceiling, block);
+    let mut worklist = candidates.sort_out(limits, ceiling, block.to_vec());
     let few = if is_last { 0 } else { worklist.len() / FEW };
     while worklist.len() > few {
         if !go_on(decimation) {
@@ -118,7 +118,7 @@ fn work_off(
         let Round { touched, mut left } =
             remove_all(decimation, candidates, claims, under, &worklist).map_err(Unfinished::TooLarge)?;
         left.extend(candidates.touch(limits, is_last, touched));
-        worklist = candidates.sort_out(limits, ceiling, &left);
+        worklist = candidates.sort_out(limits, ceiling, left);
         if worklist.is_empty() && ceiling >= limits.global {
             worklist.extend(candidates.take_changed());
         }
@@ -174,9 +174,10 @@ impl Candidates {
 
     /// Takes those below the ceiling off those that wait, in ascending order: neighbours in it are neighbours on the surface.
     fn take_below(&mut self, limits: Limits, ceiling: f64) -> Vec<u32> {
-        let waiting = std::mem::take(&mut self.waiting);
-        let mut below = self.sort_out(limits, ceiling, &waiting);
+        let mut below = std::mem::take(&mut self.waiting);
+        self.retain_below(limits, ceiling, &mut below);
         below.par_sort_unstable();
+        below.dedup();
         below
     }
 
@@ -196,26 +197,29 @@ impl Candidates {
         touched
     }
 
-    /// Those of the given vertices below the ceiling, each once: cheapest first, as far as is known, ties to the lower vertex. Those
-    /// above it wait, or are left to a later iteration.
+    /// Those of the given vertices below the ceiling, each once: cheapest first, as far as is known, ties to the lower vertex.
     #[expect(clippy::cast_possible_truncation, reason = "the lower half of a key is the vertex")]
-    fn sort_out(&mut self, limits: Limits, ceiling: f64, vertices: &[u32]) -> Vec<u32> {
-        let mut keys = Vec::with_capacity(vertices.len());
-        for &v in vertices {
-            let (needed, found) = (self.needed[v as usize], self.found[v as usize]);
-            if !is_admitted(needed, limits) {
-                continue;
-            }
-            if f64::from(found) > ceiling {
-                self.waiting.push(v);
-            } else {
-                // The bits of what is not negative are in its order.
-                keys.push(u64::from(found.to_bits()) << u32::BITS | u64::from(v));
-            }
-        }
-        keys.par_sort_unstable();
+    fn sort_out(&mut self, limits: Limits, ceiling: f64, mut vertices: Vec<u32>) -> Vec<u32> {
+        self.retain_below(limits, ceiling, &mut vertices);
+        // The bits of what is not negative are in its order.
+        let key = |v: u32| u64::from(self.found[v as usize].to_bits()) << u32::BITS | u64::from(v);
+        let mut keys: Vec<u64> = vertices.into_iter().map(key).collect();
+        keys.sort_unstable();
         keys.dedup();
         keys.into_iter().map(|key| key as u32).collect()
+    }
+
+    /// Keeps the vertices below the ceiling. Those above it wait, or are left to a later iteration.
+    fn retain_below(&mut self, limits: Limits, ceiling: f64, vertices: &mut Vec<u32>) {
+        let Self { needed, found, waiting, .. } = self;
+        vertices.retain(|&v| {
+            let is_within = is_admitted(needed[v as usize], limits);
+            let is_below = f64::from(found[v as usize]) <= ceiling;
+            if is_within && !is_below {
+                waiting.push(v);
+            }
+            is_within && is_below
+        });
     }
 
     /// Picks the next vertices of the worklist for a batch, no two of the round neighbours, and takes them off it. Who comes first is
