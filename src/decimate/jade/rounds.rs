@@ -19,7 +19,7 @@ const BATCH: usize = 512;
 
 /// Candidates under one ceiling that are worked off together. They lie side by side on the surface, so that all that their removals
 /// read and write stays in the cache from round to round; fewer would leave too little for the threads.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 4096;
 
 /// The part of a block that is left to the next ceiling: rounds over a few candidates each would end it.
 const FEW: usize = 3;
