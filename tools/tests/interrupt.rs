@@ -43,6 +43,15 @@ fn a_measurement_without_end_is_interrupted() {
     thread::sleep(Duration::from_millis(300));
     let killed = Command::new("kill").args(["-INT", &measure.id().to_string()]).status();
     assert!(killed.expect("kill is there").success());
+    // Where the tests were started with interrupts ignored, so is this one: then it would never end by itself.
+    for _ in 0..100 {
+        if measure.try_wait().expect("its status is known").is_some() {
+            break;
+        }
+        thread::sleep(Duration::from_millis(300));
+    }
+    // An error where it has ended, as it should have.
+    let _ = measure.kill();
     let status = measure.wait().expect("the program ends");
-    assert_eq!(status.signal(), Some(2), "{status}");
+    assert_eq!(status.signal(), Some(2), "{status}: were the tests started with interrupts ignored?");
 }

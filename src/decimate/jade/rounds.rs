@@ -98,6 +98,10 @@ struct Stage {
 
 /// Removes what is within the ceiling of a block and of what its removals touch, in rounds; the few that are left wait for the next
 /// ceiling.
+///
+/// # Errors
+///
+/// As [`run`].
 fn work_off(
     decimation: &mut Decimation,
     candidates: &mut Candidates,
