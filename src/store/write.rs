@@ -142,7 +142,8 @@ fn lay_out<const CORNERS: usize>(
     let grid = Grid::around(mesh.positions);
     layout.sort_groups_by_key(|id| grid.morton_of_centroid(mesh.positions, pieces.vertices(id)));
     let n_vertices = mesh.positions.len();
-    layout.order_groups(|| FanOrder::new(n_vertices), |fans, group| order_by_fans(fans, group, pieces));
+    let by_fans = |fans: &mut FanOrder, stretch: &mut [u32]| order_by_fans(fans, stretch, pieces);
+    layout.order_stretches(STRETCH_LEN, || FanOrder::new(n_vertices), by_fans);
     Ok(layout)
 }
 
@@ -150,18 +151,20 @@ fn lay_out<const CORNERS: usize>(
 /// so many. Where two of them meet some vertices are loaded twice, which in stretches of this length cannot be seen in the miss ratio.
 const STRETCH_LEN: usize = 1 << 14;
 
-/// Orders the triangles of a group for the vertex cache; leaves other simplices as they are.
-fn order_by_fans<const CORNERS: usize>(fans: &mut FanOrder, group: &mut [u32], pieces: &Pieces<'_, CORNERS>) {
-    for stretch in group.chunks_mut(STRETCH_LEN) {
-        let mut triangles = Vec::with_capacity(stretch.len());
-        for &id in &*stretch {
-            let Ok(triangle) = <[u32; 3]>::try_from(pieces.vertices(id).as_slice()) else { return };
-            triangles.push(triangle);
-        }
-        let Some(order) = fans.order_owned(triangles) else { return };
-        let ids: Vec<u32> = order.into_iter().map(|place| stretch[place as usize]).collect();
-        stretch.copy_from_slice(&ids);
+/// Orders triangles for the vertex cache; leaves other simplices as they are.
+fn order_by_fans<const CORNERS: usize>(
+    fans: &mut FanOrder,
+    stretch: &mut [u32],
+    pieces: &Pieces<'_, CORNERS>,
+) {
+    let mut triangles = Vec::with_capacity(stretch.len());
+    for &id in &*stretch {
+        let Ok(triangle) = <[u32; 3]>::try_from(pieces.vertices(id).as_slice()) else { return };
+        triangles.push(triangle);
     }
+    let Some(order) = fans.order_owned(triangles) else { return };
+    let ids: Vec<u32> = order.into_iter().map(|place| stretch[place as usize]).collect();
+    stretch.copy_from_slice(&ids);
 }
 
 fn metadata_bytes(provenance: &Provenance) -> Result<Vec<u8>, WriteError> {

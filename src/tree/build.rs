@@ -4,11 +4,8 @@ use super::{Group, LayoutOrder, Lifetime, List, Run, n_heights};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Groups shorter than this are sorted on the spot, longer ones on all threads.
+/// Groups shorter than this are sorted by one thread each, longer ones by all threads.
 const PARALLEL_SORT_LEN: usize = 1 << 14;
-
-/// A group of more than this part of all slots is large.
-const LARGE_PARTS: usize = 64;
 
 /// Lifetimes that cannot be laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -105,42 +102,28 @@ impl Layout {
     /// Sorts the ids inside each group by `key`, equal keys by id. Cuts do not change as sets, but neighbours in `key` (a
     /// space-filling curve, say) become neighbours in memory.
     pub fn sort_groups_by_key<K: Ord + Send>(&mut self, key: impl Fn(u32) -> K + Sync) {
-        let mut slots = std::mem::take(&mut self.slots);
-        for (_, range) in self.groups() {
-            let ids = &mut slots[range];
-            if ids.len() < PARALLEL_SORT_LEN {
-                ids.sort_by_cached_key(|&id| key(id));
-            } else {
-                ids.par_sort_by_cached_key(|&id| key(id));
-            }
-        }
-        self.slots = slots;
+        let (short, long): (Vec<_>, Vec<_>) =
+            self.groups_mut().into_iter().partition(|ids| ids.len() < PARALLEL_SORT_LEN);
+        long.into_iter().for_each(|ids| ids.par_sort_by_cached_key(|&id| key(id)));
+        short.into_par_iter().for_each(|ids| ids.sort_by_cached_key(|&id| key(id)));
     }
 
-    /// Gives the ids of each group to `order`, which may change their order. Large groups come one after the other, so that what one of
-    /// them needs is never needed twice at a time; then the others run on all threads of the current rayon
-    /// pool, each thread with a state of its own from `init`. The result must not depend on that state.
-    pub fn order_groups<S>(
+    /// Gives the ids of each group to `order`, which may change their order, in stretches of at most `max_len`, so that none of them
+    /// takes much memory. They run on all threads of the current rayon pool, with states from `init` of which no thread uses two at a
+    /// time. The result must not depend on that state.
+    ///
+    /// # Panics
+    ///
+    /// When `max_len` is 0.
+    pub fn order_stretches<S>(
         &mut self,
+        max_len: usize,
         init: impl Fn() -> S + Sync + Send,
         order: impl Fn(&mut S, &mut [u32]) + Sync + Send,
     ) {
-        let mut slots = std::mem::take(&mut self.slots);
-        let n_slots = slots.len();
-        let mut rest = slots.as_mut_slice();
-        let mut groups = Vec::new();
-        for (_, range) in self.groups() {
-            let (group, behind) = std::mem::take(&mut rest).split_at_mut(range.len());
-            groups.push(group);
-            rest = behind;
-        }
-        let large_len = n_slots / LARGE_PARTS;
-        let (large, small): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.len() > large_len);
-        let mut state = init();
-        large.into_iter().for_each(|group| order(&mut state, group));
-        drop(state);
-        small.into_par_iter().for_each_init(init, order);
-        self.slots = slots;
+        let stretches: Vec<_> =
+            self.groups_mut().into_iter().flat_map(|ids| ids.chunks_mut(max_len)).collect();
+        stretches.into_par_iter().for_each_init(init, order);
     }
 
     /// Levels the tree is over.
@@ -166,6 +149,13 @@ impl Layout {
             let range = std::mem::replace(&mut start, end)..end;
             (!range.is_empty()).then_some((group, range))
         })
+    }
+
+    /// The ids of each group that is not empty, in the order of the slots.
+    fn groups_mut(&mut self) -> Vec<&mut [u32]> {
+        let lens: Vec<usize> = self.groups().map(|(_, range)| range.len()).collect();
+        let mut rest = self.slots.as_mut_slice();
+        lens.into_iter().filter_map(|len| rest.split_off_mut(..len)).collect()
     }
 
     /// The runs of all levels, level by level: offsets (`n_levels + 1` of them) and runs, as [`Tree`](super::Tree) takes them.
