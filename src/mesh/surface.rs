@@ -1,6 +1,6 @@
 //! The mesh while it is being simplified.
 
-use super::{Renumbering, Stars};
+use super::{Filling, Hole, Renumbering, Stars};
 use crate::geometry::vector::{Vector, widen};
 
 /// Corners of a slot whose triangle is gone.
@@ -115,28 +115,28 @@ impl Surface {
         })
     }
 
-    /// Replaces the star of `removed`, which is `old`, by `new` triangles, in the first slots of `old`.
-    ///
-    /// `new` has fewer triangles than `old`. O(sum of the valences around the hole).
-    pub fn replace_star(&mut self, removed: u32, old: &[u32], new: &[[u32; 3]]) {
-        debug_assert!(new.len() < old.len());
-        for &slot in old {
-            for v in self.corners(slot).into_iter().filter(|&v| v != removed) {
+    /// Puts a filling in the place of the star of `hole`, in the first slots of the star. O(sum of the valences around the hole).
+    pub fn fill(&mut self, hole: &Hole, filling: &Filling) {
+        let n_new = filling.triangles.len();
+        debug_assert!(n_new < hole.slots.len());
+        for &slot in &hole.slots {
+            for v in self.corners(slot).into_iter().filter(|&v| v != hole.removed) {
                 self.stars.remove(v, slot);
             }
             self.triangles[slot as usize] = GONE;
         }
-        self.stars.clear(removed);
-        for (&slot, &corners) in old.iter().zip(new) {
+        self.stars.clear(hole.removed);
+        for (i, &slot) in hole.slots.iter().take(n_new).enumerate() {
+            let corners = filling.corners(hole, i);
             self.triangles[slot as usize] = corners;
             for v in corners {
                 self.stars.add(v, slot);
             }
         }
-        self.n_triangles -= old.len() - new.len();
+        self.n_triangles -= hole.slots.len() - n_new;
     }
 
-    /// Gives back memory that finished replacements left behind; cheap enough to call after every round.
+    /// Gives back memory that fillings left behind; cheap enough to call after every round.
     pub fn compact(&mut self) {
         self.stars.compact(self.n_triangles);
     }

@@ -70,9 +70,14 @@ impl Contents {
         self.0.renumber(slots);
     }
 
-    /// Gives back memory that former contents left behind. O(words) when it works, O(1) otherwise.
-    pub fn compact(&mut self) {
-        self.0.compact();
+    /// Whether there is enough memory that former contents left behind to give it back.
+    pub fn has_gaps(&self) -> bool {
+        self.0.has_gaps()
+    }
+
+    /// Gives back memory that former contents left behind. O(words).
+    pub fn close_up(&mut self) {
+        self.0.close_up();
     }
 
     #[inline]
@@ -103,7 +108,7 @@ mod tests {
                 contents.fill(slot, vertices.iter().copied(), edges.iter().copied());
                 lists[slot as usize] = (vertices, edges);
                 if at % 4 == 3 {
-                    contents.compact();
+                    contents.close_up();
                 }
             }
             for (slot, (vertices, edges)) in (0..).zip(&lists) {

@@ -148,10 +148,13 @@ impl Certified {
         rayon::join(set_chains, fill_slots);
     }
 
-    /// Gives back memory that finished removals left behind; cheap enough to call after every batch.
+    /// Gives back memory that finished removals left behind, of both pools once one of them has enough of it, since they are closed up
+    /// side by side. O(words) when it works, O(1) otherwise.
     pub fn compact(&mut self) {
         let Self { chains, contents, .. } = self;
-        rayon::join(|| chains.compact(), || contents.compact());
+        if chains.has_gaps() || contents.has_gaps() {
+            rayon::join(|| chains.close_up(), || contents.close_up());
+        }
     }
 
     /// Gives every slot its new number. O(words of the proof).

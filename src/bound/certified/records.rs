@@ -1,7 +1,7 @@
 //! Records of words, side by side in one pool, each found by its owner.
 //!
 //! A list per owner would cost an allocation each, and lists linked through their members scatter over memory: following them
-//! was a third of the build. Here a record that changes is written anew behind the others, and [`Records::compact`] closes the
+//! was a third of the build. Here a record that changes is written anew behind the others, and [`Records::close_up`] closes the
 //! gaps where they are, without a second pool. What changed together then lies together.
 
 use crate::mesh::Renumbering;
@@ -75,12 +75,14 @@ impl Records {
         self.n_used += HEADER + n_words;
     }
 
-    /// Closes the gaps once they make up a fifth of the pool; the records keep their order. O(words) when it works, O(1) otherwise.
+    /// Whether the gaps make up a fifth of the pool. O(1).
+    pub(super) fn has_gaps(&self) -> bool {
+        self.words.len() >= self.n_used + self.n_used / 4 + 1024
+    }
+
+    /// Closes the gaps; the records keep their order. O(words).
     #[expect(clippy::cast_possible_truncation, reason = "not more than before")]
-    pub(super) fn compact(&mut self) {
-        if self.words.len() < self.n_used + self.n_used / 4 + 1024 {
-            return;
-        }
+    pub(super) fn close_up(&mut self) {
         self.n_touched = self.n_touched.max(self.words.len());
         let (mut from, mut to) = (0, 0);
         while from < self.words.len() {
@@ -158,9 +160,10 @@ mod tests {
                 }
                 map.insert(owner, words);
                 if at % 4 == 3 {
-                    records.compact();
                     let n_used: usize = map.values().filter(|words| !words.is_empty()).map(|words| words.len() + HEADER).sum();
-                    prop_assert!(records.n_words() < n_used + n_used / 4 + 1024);
+                    prop_assert_eq!(records.has_gaps(), records.n_words() >= n_used + n_used / 4 + 1024);
+                    records.close_up();
+                    prop_assert_eq!(records.n_words(), n_used);
                 }
             }
             for (&owner, words) in &map {

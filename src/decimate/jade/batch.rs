@@ -7,28 +7,43 @@ use crate::bound::Limits;
 use crate::mesh::TooMany;
 use rayon::prelude::*;
 
-/// Most candidates that one thread takes at a time. Of few candidates it takes fewer: the last ones of a history stand for
-/// thousands of input vertices each.
-const CHUNK: usize = 32;
+/// Most candidates that one thread takes at a time.
+const CHUNK: usize = 16;
 
-/// Plans the removal of every vertex of the batch under `limits`, in parallel. In order.
-pub fn plan_all(
-    decimation: &Decimation,
-    limits: Limits,
-    batch: &[u32],
-) -> impl Iterator<Item = Result<Box<Plan>, Verdict>> + use<> {
+/// Chunks for each thread, where there are enough candidates: the last ones of a history stand for thousands of input vertices each,
+/// and whoever is done with its own takes from the others.
+const CHUNKS_PER_THREAD: usize = 16;
+
+/// What was found of some candidates.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// Of those within the limits.
+    pub plans: Vec<Box<Plan>>,
+    /// Of the others.
+    pub verdicts: Vec<(u32, Verdict)>,
+}
+
+/// Plans the removal of every vertex of the batch under `limits`, in parallel. In order, a few together.
+pub fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Judged> {
     let situation = decimation.situation();
     let plan_chunk = |chunk: &[u32]| {
         let mut scratch = decimation.workers.scratch();
-        chunk.iter().map(|&v| plan(situation, v, limits, &mut scratch)).collect::<Vec<_>>()
+        let mut judged = Judged { plans: vec![], verdicts: Vec::with_capacity(chunk.len()) };
+        for &v in chunk {
+            match plan(situation, v, limits, &mut scratch) {
+                Ok(plan) => judged.plans.push(plan),
+                Err(verdict) => judged.verdicts.push((v, verdict)),
+            }
+        }
+        judged
     };
-    let planned: Vec<_> = batch.par_chunks(chunk_len(batch.len())).map(plan_chunk).collect();
-    planned.into_iter().flatten()
+    // A job each: rayon would tie several together, and the one who takes the last of these would keep the others waiting.
+    batch.par_chunks(chunk_len(batch.len())).with_max_len(1).map(plan_chunk).collect()
 }
 
 /// Length of the chunks into which `n` candidates are cut for the current pool.
 fn chunk_len(n: usize) -> usize {
-    (n / (8 * rayon::current_num_threads())).clamp(1, CHUNK)
+    (n / (CHUNKS_PER_THREAD * rayon::current_num_threads())).clamp(1, CHUNK)
 }
 
 /// Carries the plans out, which are [independent](Claims::claim) of each other, one step each.
@@ -37,20 +52,18 @@ fn chunk_len(n: usize) -> usize {
 ///
 /// When the errors have no room for them; nothing has changed then.
 pub fn carry_out(decimation: &mut Decimation, plans: &[Box<Plan>]) -> Result<(), TooMany> {
-    let Decimation { surface, seams, names, error, recorder, .. } = decimation;
+    let Decimation { surface, seams, error, recorder, .. } = decimation;
     let changes = plans.iter().map(|plan| plan.change());
     error.check_room(changes.clone())?;
-    let change_errors = || {
-        error.apply_all(changes);
-        error.compact();
-    };
-    let change_mesh = || {
-        for plan in plans {
-            plan.replace_star(surface, seams.as_mut(), names.as_deref(), recorder);
+    let change_surface = || plans.iter().for_each(|plan| surface.fill(&plan.hole, &plan.filling));
+    let record = || {
+        plans.iter().for_each(|plan| plan.record(recorder));
+        if let Some(seams) = seams {
+            plans.iter().for_each(|plan| plan.set_seams(seams));
         }
-        surface.compact();
     };
-    rayon::join(change_errors, change_mesh);
+    rayon::join(|| error.apply_all(changes), || rayon::join(change_surface, record));
+    rayon::join(|| error.compact(), || surface.compact());
     Ok(())
 }
 
@@ -77,6 +90,13 @@ impl Claims {
             moved(plan).for_each(|edge| self.moved.insert(edge));
         }
         is_independent
+    }
+
+    /// Takes those plans that are [independent](Self::claim) of all before them, and gives the vertices of the others.
+    pub fn sort_out(&mut self, plans: impl Iterator<Item = Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
+        let (independent, overtaken): (Vec<_>, Vec<_>) = plans.partition(|plan| self.claim(plan));
+        self.clear();
+        (independent, overtaken.into_iter().map(|plan| plan.hole.removed).collect())
     }
 
     /// Takes back all claims.
@@ -162,7 +182,8 @@ mod tests {
 
     /// Plans for vertices of which no two are neighbours, the last ones first: of a bipyramid the two tops.
     fn plan_independent(surface: &Surface, error: &GlobalError) -> Vec<Plan> {
-        let situation = Situation { surface, seams: None, error, cos_feature_angle: -1.0, aspect_loss: 0.5 };
+        let situation =
+            Situation { surface, seams: None, names: None, error, cos_feature_angle: -1.0, aspect_loss: 0.5 };
         let mut scratch = Scratch::default();
         let mut picked = HashSet::new();
         let mut plans = vec![];
@@ -203,10 +224,7 @@ mod tests {
                 // What the plan was made for is still so.
                 assert!(plan.new_edges().all(|[a, b]| surface.n_faces(a, b) == 0));
                 assert!(plan.lid().is_none_or(|lid| !surface.has_triangle(lid)));
-                let (hole, _) = plan.change();
-                let born: Vec<[u32; 3]> =
-                    (0..plan.filling.triangles.len()).map(|i| plan.filling.corners(hole, i)).collect();
-                surface.replace_star(hole.removed, &hole.slots, &born);
+                surface.fill(&plan.hole, &plan.filling);
             }
             assert!(overtaken.iter().all(|plan| claimed.iter().any(|earlier| overlap(earlier, plan))));
             n_overtaken += overtaken.len();

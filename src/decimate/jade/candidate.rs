@@ -17,6 +17,8 @@ pub struct Situation<'a> {
     pub surface: &'a Surface,
     /// Its seams, if it has any.
     pub seams: Option<&'a Seams>,
+    /// Vertex of the history for each of its vertices, where that is another one and no seam tells it.
+    pub names: Option<&'a [u32]>,
     /// Its errors so far.
     pub error: &'a GlobalError,
     /// Cosine of the feature angle.

@@ -40,6 +40,7 @@ impl Decimation {
         Situation {
             surface: &self.surface,
             seams: self.seams.as_ref(),
+            names: self.names.as_deref(),
             error: &self.error,
             cos_feature_angle: self.cos_feature_angle,
             aspect_loss: self.aspect_loss,

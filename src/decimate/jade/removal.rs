@@ -14,6 +14,10 @@ pub struct Plan {
     pub(super) filling: Filling,
     error: f64,
     change: Change,
+    /// The triangles of the star, as they are recorded.
+    dying: Vec<[u32; 3]>,
+    /// Those of the filling with their vertices; none where there are no seams.
+    born_at_seams: Vec<[u32; 3]>,
 }
 
 /// Plans the removal of `v` under `limits`, or tells what it would need. A plan is long, and most candidates have none: in a box it is
@@ -26,9 +30,17 @@ pub fn plan(
 ) -> Result<Box<Plan>, Verdict> {
     fill(situation, v, limits, scratch)?;
     let Scratch { hole, filling, transfer, .. } = scratch;
-    let replacement = Replacement { surface: situation.surface, hole, filling };
+    let Situation { surface, seams, names, .. } = situation;
+    let replacement = Replacement { surface, hole, filling };
     let (errors, change) = situation.error.change(replacement, limits, transfer).map_err(Verdict::Above)?;
-    Ok(Box::new(Plan { hole: hole.without_points(), filling: filling.clone(), error: errors.global, change }))
+    Ok(Box::new(Plan {
+        error: errors.global,
+        change,
+        dying: hole.slots.iter().map(|&slot| named_corners(surface, seams, names, slot)).collect(),
+        born_at_seams: seams.map_or_else(Vec::new, |seams| seam_vertices(surface, seams, hole, filling)),
+        filling: filling.clone(),
+        hole: hole.without_points(),
+    }))
 }
 
 impl Plan {
@@ -49,26 +61,21 @@ impl Plan {
         is_closed.then(|| ascending(self.filling.corners(&self.hole, 0)))
     }
 
-    /// Puts the filling in the place of the star and writes that down as a step.
-    pub fn replace_star(
-        &self,
-        surface: &mut Surface,
-        seams: Option<&mut Seams>,
-        names: Option<&[u32]>,
-        recorder: &mut Recorder,
-    ) {
-        let Self { hole, filling, error, .. } = self;
+    /// Writes the removal down as a step.
+    pub fn record(&self, recorder: &mut Recorder) {
+        let Self { hole, filling, error, dying, .. } = self;
         recorder.step(*error);
-        for &slot in &hole.slots {
-            recorder.death(slot, named_corners(surface, seams.as_deref(), names, slot));
-        }
-        let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
-        let vertices = seams.as_deref().map(|seams| seam_vertices(surface, seams, hole, filling));
-        surface.replace_star(hole.removed, &hole.slots, &born);
-        hole.slots.iter().take(born.len()).for_each(|&slot| recorder.birth(slot));
-        if let (Some(seams), Some(vertices)) = (seams, vertices) {
-            hole.slots.iter().zip(vertices).for_each(|(&slot, vertices)| seams.set(slot, vertices));
-        }
+        hole.slots.iter().zip(dying).for_each(|(&slot, &triangle)| recorder.death(slot, triangle));
+        hole.slots.iter().take(filling.triangles.len()).for_each(|&slot| recorder.birth(slot));
+    }
+
+    /// Gives the filling its vertices.
+    pub fn set_seams(&self, seams: &mut Seams) {
+        self.hole
+            .slots
+            .iter()
+            .zip(&self.born_at_seams)
+            .for_each(|(&slot, &vertices)| seams.set(slot, vertices));
     }
 }
 

@@ -4,10 +4,11 @@
 //! its turn comes, however much its star has changed since: it only decides whose turn it is. The ceilings rise so finely that
 //! removals go nearly in the order of their errors all the same, and a vertex is judged as often as it is tried.
 
-use super::batch::{Claims, carry_out, plan_all};
+use super::batch::{Claims, Judged, carry_out, plan_all};
 use super::candidate::Verdict;
 use super::decimation::Decimation;
 use super::placement;
+use super::removal::Plan;
 use super::thresholds::Thresholds;
 use crate::bound::Limits;
 use crate::bound::accumulated::round_up;
@@ -300,33 +301,28 @@ fn remove_all(
     let Round { mut touched, mut left } = Round::default();
     candidates.round += 1;
     let mut batch = candidates.pick(&decimation.surface, &mut worklist, &mut left);
+    let mut done: Vec<Box<Plan>> = vec![];
     while !batch.is_empty() {
-        let (planned, next) = rayon::join(
+        let (judged, next) = rayon::join(
             || plan_all(decimation, limits, &batch),
             || candidates.pick(&decimation.surface, &mut worklist, &mut left),
         );
-        let mut plans = vec![];
-        let mut overtaken = vec![];
-        for (&v, planned) in batch.iter().zip(planned) {
-            let verdict = match planned {
-                Ok(plan) if !claims.claim(&plan) => {
-                    overtaken.push(v);
-                    continue;
-                }
-                Ok(plan) => {
-                    plans.push(plan);
-                    Verdict::Impossible
-                }
-                Err(verdict) => {
-                    left.push(v);
-                    verdict
-                }
-            };
-            candidates.set_verdict(v, verdict, decimation.c2);
-        }
+        let (plans, verdicts): (Vec<_>, Vec<_>) =
+            judged.into_iter().map(|Judged { plans, verdicts }| (plans, verdicts)).unzip();
+        let note = || {
+            done.clear();
+            for (v, verdict) in verdicts.into_iter().flatten() {
+                left.push(v);
+                candidates.set_verdict(v, verdict, decimation.c2);
+            }
+        };
+        let ((plans, overtaken), ()) = rayon::join(|| claims.sort_out(plans.into_iter().flatten()), note);
         carry_out(decimation, &plans)?;
-        claims.clear();
-        touched.extend(plans.iter().flat_map(|plan| &plan.change().0.ring));
+        for (hole, _) in plans.iter().map(|plan| plan.change()) {
+            candidates.set_verdict(hole.removed, Verdict::Impossible, decimation.c2);
+            touched.extend(&hole.ring);
+        }
+        done = plans;
         batch = overtaken;
         batch.extend(next);
     }

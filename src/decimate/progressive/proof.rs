@@ -59,8 +59,7 @@ impl Proof {
         }
         certified.apply_all(changes);
         certified.compact();
-        let born: Vec<[u32; 3]> = (0..filling.triangles.len()).map(|i| filling.corners(hole, i)).collect();
-        surface.replace_star(hole.removed, &hole.slots, &born);
+        surface.fill(hole, filling);
         surface.compact();
         true
     }
