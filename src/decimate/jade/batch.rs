@@ -93,8 +93,8 @@ impl Claims {
     }
 
     /// Takes those plans that are [independent](Self::claim) of all before them, and gives the vertices of the others.
-    pub fn sort_out(&mut self, plans: impl Iterator<Item = Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
-        let (independent, overtaken): (Vec<_>, Vec<_>) = plans.partition(|plan| self.claim(plan));
+    pub fn sort_out(&mut self, plans: Vec<Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
+        let (independent, overtaken): (Vec<_>, Vec<_>) = plans.into_iter().partition(|plan| self.claim(plan));
         self.clear();
         (independent, overtaken.into_iter().map(|plan| plan.hole.removed).collect())
     }

@@ -23,6 +23,7 @@ pub mod rounds;
 pub mod thresholds;
 pub mod triangulate;
 pub mod validity;
+pub mod worklists;
 
 /// Largest [`JadeOptions::k`], and least [`JadeOptions::c1`]: limits far below what coordinates can tell apart, or steps of next
 /// to nothing, would make iterations without number.
