@@ -119,18 +119,21 @@ impl Surface {
     pub fn fill(&mut self, hole: &Hole, filling: &Filling) {
         let n_new = filling.triangles.len();
         debug_assert!(n_new < hole.slots.len());
-        for &slot in &hole.slots {
-            for v in self.corners(slot).into_iter().filter(|&v| v != hole.removed) {
+        let new = |i: usize| if i < n_new { filling.corners(hole, i) } else { GONE };
+        // A corner that the old and the new triangle of a slot have in common keeps it. First some make room, then others take it.
+        for (i, &slot) in hole.slots.iter().enumerate() {
+            let (old, new) = (self.corners(slot), new(i));
+            for v in old.into_iter().filter(|v| *v != hole.removed && !new.contains(v)) {
                 self.stars.remove(v, slot);
             }
-            self.triangles[slot as usize] = GONE;
         }
         self.stars.clear(hole.removed);
-        for (i, &slot) in hole.slots.iter().take(n_new).enumerate() {
-            let corners = filling.corners(hole, i);
-            self.triangles[slot as usize] = corners;
-            for v in corners {
-                self.stars.add(v, slot);
+        for (i, &slot) in hole.slots.iter().enumerate() {
+            let old = std::mem::replace(&mut self.triangles[slot as usize], new(i));
+            if i < n_new {
+                for v in new(i).into_iter().filter(|v| !old.contains(v)) {
+                    self.stars.add(v, slot);
+                }
             }
         }
         self.n_triangles -= hole.slots.len() - n_new;
@@ -152,5 +155,45 @@ impl Surface {
         slots.close_up(&mut self.triangles);
         self.stars.renumber(&slots);
         Some(slots)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{sphere, torus};
+    use std::collections::BTreeSet;
+
+    /// The fan from the first ring vertex.
+    fn fan(hole: &Hole) -> Filling {
+        let n = u8::try_from(hole.n_ring()).unwrap();
+        let triangles: Vec<[u8; 3]> = (1..n - 1).map(|i| [0, i, i + 1]).collect();
+        Filling { n_first_part: triangles.len(), triangles, part_starts: [0, 0] }
+    }
+
+    #[test]
+    fn stars_are_the_triangles_at_each_vertex_after_every_filling() {
+        for mesh in [sphere(5), torus(9, 7)] {
+            let mut surface = Surface::new(mesh.positions, mesh.triangles);
+            let mut hole = Hole::default();
+            let mut n_filled = 0;
+            for v in 0..u32::try_from(surface.n_vertices()).unwrap() {
+                if hole.gather(&surface, v).is_err() {
+                    continue;
+                }
+                surface.fill(&hole, &fan(&hole));
+                n_filled += 1;
+                assert_eq!(surface.n_triangles(), surface.iter().count());
+                assert!(surface.star(v).is_empty());
+                for &r in &hole.ring {
+                    let around =
+                        surface.iter().filter(|(_, corners)| corners.contains(&r)).map(|(slot, _)| slot);
+                    let star = surface.star(r);
+                    assert_eq!(star.iter().copied().collect::<BTreeSet<u32>>(), around.collect());
+                    assert_eq!(star.len(), star.iter().collect::<BTreeSet<_>>().len());
+                }
+            }
+            assert!(n_filled > 30);
+        }
     }
 }

@@ -220,7 +220,8 @@ impl Waiting {
 
     /// Lets `v` wait for the first ceiling that is no lower than `error`, if there is one: otherwise a later iteration will admit it.
     fn add(&mut self, v: u32, error: f32) {
-        let step = self.ceilings.partition_point(|&ceiling| ceiling < f64::from(error));
+        // Counted, not searched: which one it is cannot be foreseen.
+        let step = self.ceilings.iter().filter(|&&ceiling| ceiling < f64::from(error)).count();
         if let Some(list) = self.lists.get_mut(step) {
             list.push(v);
         }
