@@ -115,7 +115,8 @@ impl Surface {
         })
     }
 
-    /// Puts a filling in the place of the star of `hole`, in the first slots of the star. O(sum of the valences around the hole).
+    /// Puts a filling in the place of the star of `hole`: its triangles, fewer than the star has, go into the first slots of the star.
+    /// O(sum of the valences around the hole).
     pub fn fill(&mut self, hole: &Hole, filling: &Filling) {
         let n_new = filling.triangles.len();
         debug_assert!(n_new < hole.slots.len());
@@ -129,9 +130,10 @@ impl Surface {
         }
         self.stars.clear(hole.removed);
         for (i, &slot) in hole.slots.iter().enumerate() {
-            let old = std::mem::replace(&mut self.triangles[slot as usize], new(i));
-            if i < n_new {
-                for v in new(i).into_iter().filter(|v| !old.contains(v)) {
+            let new = new(i);
+            let old = std::mem::replace(&mut self.triangles[slot as usize], new);
+            if new != GONE {
+                for v in new.into_iter().filter(|v| !old.contains(v)) {
                     self.stars.add(v, slot);
                 }
             }

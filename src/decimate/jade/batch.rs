@@ -46,7 +46,7 @@ fn chunk_len(n: usize) -> usize {
     (n / (CHUNKS_PER_THREAD * rayon::current_num_threads())).clamp(1, CHUNK)
 }
 
-/// Carries the plans out, which are [independent](Claims::claim) of each other, one step each.
+/// Carries the plans out, which are [independent](Claims::take_independent) of each other, one step each.
 ///
 /// # Errors
 ///
@@ -79,9 +79,16 @@ pub struct Claims {
 }
 
 impl Claims {
+    /// Takes those plans that are independent of all before them, and gives the vertices of the others.
+    pub fn take_independent(&mut self, plans: Vec<Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
+        let (independent, overtaken): (Vec<_>, Vec<_>) = plans.into_iter().partition(|plan| self.claim(plan));
+        self.clear();
+        (independent, overtaken.into_iter().map(|plan| plan.hole.removed).collect())
+    }
+
     /// Whether the plan is independent of all that was claimed so far: none of them makes one of its edges or its only triangle, or
     /// moves a source edge that it moves. If so, claims what it changes.
-    pub fn claim(&mut self, plan: &Plan) -> bool {
+    fn claim(&mut self, plan: &Plan) -> bool {
         let is_independent =
             made(plan).all(|key| !self.made.has(key)) && moved(plan).all(|edge| !self.moved.has(edge));
         // Only then: a plan may well have two edges with one key, and is not overtaken by itself.
@@ -92,15 +99,8 @@ impl Claims {
         is_independent
     }
 
-    /// Takes those plans that are [independent](Self::claim) of all before them, and gives the vertices of the others.
-    pub fn sort_out(&mut self, plans: Vec<Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
-        let (independent, overtaken): (Vec<_>, Vec<_>) = plans.into_iter().partition(|plan| self.claim(plan));
-        self.clear();
-        (independent, overtaken.into_iter().map(|plan| plan.hole.removed).collect())
-    }
-
     /// Takes back all claims.
-    pub fn clear(&mut self) {
+    fn clear(&mut self) {
         self.moved.clear();
         self.made.clear();
     }

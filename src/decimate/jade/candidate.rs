@@ -10,7 +10,7 @@ use crate::bound::estimate::Estimate;
 use crate::bound::{Errors, GlobalError, Limits};
 use crate::mesh::{Filling, Hole, NoHole, Seams, Surface};
 
-/// All that a candidate is judged by.
+/// All that a candidate is judged by, and its removal planned from.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
     /// The current mesh.

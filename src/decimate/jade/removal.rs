@@ -14,7 +14,7 @@ pub struct Plan {
     pub(super) filling: Filling,
     error: f64,
     change: Change,
-    /// The triangles of the star, as they are recorded.
+    /// The triangles of the star, as they are recorded: beside the change of the surface, which has others by then.
     dying: Vec<[u32; 3]>,
     /// Those of the filling with their vertices; none where there are no seams.
     born_at_seams: Vec<[u32; 3]>,

@@ -47,9 +47,8 @@ pub fn run(
     let mut claims = Claims::default();
     let mut limits = thresholds.limits();
     loop {
-        let ceilings: Vec<f64> = thresholds.ceilings().collect();
-        candidates.admit(limits, ceilings.clone(), &decimation.surface);
-        for (step, ceiling) in ceilings.into_iter().enumerate() {
+        candidates.admit(limits, thresholds.ceilings().collect(), &decimation.surface);
+        for (step, ceiling) in thresholds.ceilings().enumerate() {
             let stage = Stage { limits, ceiling, step, is_last: thresholds.is_last() };
             for block in candidates.take_below(stage).chunks(BLOCK) {
                 work_off(decimation, &mut candidates, &mut claims, stage, block, go_on)?;
@@ -146,7 +145,7 @@ fn remove_all(
                 candidates.set_verdict(v, verdict, decimation.c2);
             }
         }
-        let (plans, overtaken) = claims.sort_out(found);
+        let (plans, overtaken) = claims.take_independent(found);
         carry_out(decimation, &plans)?;
         for (hole, _) in plans.iter().map(|plan| plan.change()) {
             candidates.set_verdict(hole.removed, Verdict::Impossible, decimation.c2);
