@@ -88,12 +88,6 @@ impl Certified {
         }
     }
 
-    /// A bound on the displacement inside the hole once it is closed, or some value above `limit` if the bound is above
-    /// that. O(vertices and edges mapped into the star).
-    pub fn bound(&self, replacement: Replacement<'_>, limit: f64, transfer: &mut Transfer) -> f64 {
-        transfer.displacement(self, replacement, limit) + self.slack
-    }
-
     /// What the replacement changes in the map, and the bound; or, where that is above `limit`, some value above the limit and no
     /// larger than it, followed up to [`REACH`] times the limit at most. O(vertices and edges mapped into the star).
     pub fn change(

@@ -56,21 +56,6 @@ pub(in crate::bound) struct NewChain {
 }
 
 impl Transfer {
-    /// Largest displacement inside the hole, or the first one found above `limit`.
-    pub(super) fn displacement(
-        &mut self,
-        certified: &Certified,
-        replacement: Replacement<'_>,
-        limit: f64,
-    ) -> f64 {
-        let covered = self.gather(certified, replacement.hole);
-        let limit_sq = limit * limit;
-        let removal = Removal { certified, replacement, covered: &covered };
-        let found = self.walk(removal, [limit_sq; 2], |_, _| ()).sqrt();
-        self.covered = covered;
-        found
-    }
-
     /// What the removal changes, and the largest displacement; or a lower bound of that, above `limit`, alone.
     pub(super) fn change(
         &mut self,

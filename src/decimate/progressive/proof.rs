@@ -7,7 +7,7 @@
 use super::complex::Complex;
 use super::ring::Ring;
 use crate::bound::Replacement;
-use crate::bound::certified::{Certified, Transfer};
+use crate::bound::certified::{Certified, Change, Transfer};
 use crate::mesh::{Filling, Hole, Surface};
 
 /// The map from the input onto the current mesh, and that mesh once more in the form that the map refers to.
@@ -34,9 +34,10 @@ impl Proof {
         }
     }
 
-    /// A bound on the error once the ring's centre has gone into neighbour `into`, or some value above `limit`. Nothing where the
-    /// star is none that the proof can follow. O(input mapped into the star).
-    pub fn bound(&mut self, ring: &Ring, into: usize, limit: f64) -> Option<f64> {
+    /// Plans the collapse of the ring's centre into neighbour `into`, which carries the map over to the fan that is left. The plan
+    /// fails if no bound of at most `limit` follows. `None` if the star is not one that the proof can follow. O(input mapped into
+    /// the star).
+    pub fn plan(&mut self, ring: &Ring, into: usize, limit: f64) -> Option<Result<Plan<'_>, AboveLimit>> {
         let Self { surface, certified, hole, filling, transfer } = self;
         hole.gather(surface, ring.center).ok()?;
         let target = hole.ring.iter().position(|&r| r == ring.vertices[into])?;
@@ -44,15 +45,35 @@ impl Proof {
         if filling.triangles.len() + 2 != hole.n_ring() || filling.triangles.is_empty() {
             return None;
         }
-        Some(certified.bound(Replacement { surface, hole, filling }, limit, transfer))
+        Some(match certified.change(Replacement { surface, hole, filling }, limit, transfer) {
+            Ok((error, change)) => Ok(Plan { proof: self, error, change }),
+            Err(_) => Err(AboveLimit),
+        })
+    }
+}
+
+/// No bound within the limit was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AboveLimit;
+
+/// A collapse whose bound is known. Holds the change of the map that the bound was found for, so that no other one can be carried
+/// out under this bound.
+#[derive(Debug)]
+pub struct Plan<'a> {
+    proof: &'a mut Proof,
+    error: f64,
+    change: Change,
+}
+
+impl Plan<'_> {
+    /// A bound on the error of the mesh inside the ring after the collapse.
+    pub fn error(&self) -> f64 {
+        self.error
     }
 
-    /// Carries the map over to the fan that [`Self::bound`] was asked about last; false where there is no room for it, and the
-    /// proof ends.
-    pub fn carry_out(&mut self) -> bool {
-        let Self { surface, certified, hole, filling, transfer } = self;
-        let found = certified.change(Replacement { surface, hole, filling }, f64::INFINITY, transfer);
-        let Ok((_, change)) = found else { return false };
+    /// Applies the change to the map and to the mesh of the proof. False if there is no room for it; then the proof ends here.
+    pub fn carry_out(self) -> bool {
+        let Self { proof: Proof { surface, certified, hole, filling, .. }, change, .. } = self;
         let changes = std::iter::once((&*hole, &change));
         if certified.check_room(changes.clone()).is_err() {
             return false;

@@ -5,7 +5,7 @@ use super::collapse::{Collapse, Contact};
 use super::decimation::Decimation;
 use super::error::vanishes;
 use super::events::{Event, EventKind};
-use super::proof::Proof;
+use super::proof::AboveLimit;
 use super::ring::Ring;
 use super::view::View;
 
@@ -15,22 +15,24 @@ impl Decimation {
         let View { ring, class, .. } = &self.view;
         let keeps_topology = contact == Contact::None && !vanishes(ring) && *class != Class::CrackTip;
         let max_error = self.settings.max_error;
-        let proven = match &mut self.proof {
-            Some(proof) if keeps_topology => proof.bound(ring, into, max_error),
+        let estimate = self.accumulated.after(ring, distance) + self.settings.rounding;
+        let plan = match &mut self.proof {
+            Some(proof) if keeps_topology => proof.plan(ring, into, max_error),
             _ => None,
         };
-        let error = proven.unwrap_or_else(|| self.accumulated.after(ring, distance) + self.settings.rounding);
-        if error > max_error {
-            return false;
-        }
-        let is_carried_on = proven.is_some() && self.proof.as_mut().is_some_and(Proof::carry_out);
+        let (error, is_proven, is_carried_on) = match plan {
+            Some(Err(AboveLimit)) => return false,
+            None if estimate > max_error => return false,
+            Some(Ok(plan)) => (plan.error(), true, plan.carry_out()),
+            None => (estimate, false, false),
+        };
         if !is_carried_on {
             self.proof = None;
         }
         let ring = std::mem::take(&mut self.view.ring);
         self.accumulated.distribute(&ring, distance);
         self.record_collapse(&ring, into, error);
-        if proven.is_some() {
+        if is_proven {
             self.n_proven = self.journal.n_steps() + 1;
         }
         self.tell_of_collapse(&ring, contact);
