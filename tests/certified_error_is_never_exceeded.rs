@@ -8,7 +8,7 @@ mod engine;
 
 use engine::{alive_at, build_all, corners_of, one_sided, spread_steps};
 use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::{Bound, BuildOptions, TriangleMesh, bounding_diagonal, generate};
+use nephrite::{Bound, BuildOptions, Method, TriangleMesh, bounding_diagonal, generate};
 
 /// Checks `n_levels` levels; returns the measured part of the stated error at each where it is not zero.
 fn check(name: &str, mesh: &TriangleMesh, n_levels: u32) -> Vec<f64> {
@@ -101,6 +101,81 @@ fn vertices_that_move() {
     ratios.sort_by(f64::total_cmp);
     let median = ratios[ratios.len() / 2];
     assert!(median >= 0.7, "a bound that is far too high: median {median}");
+}
+
+/// A folded patch of 24 triangles. Under a limit of 0.8 a vertex of it is placed otherwise than without a limit.
+fn folded_patch() -> TriangleMesh {
+    const QUARTERS: [[f32; 4]; 5] = [
+        [1.0, -3.0, -1.0, -3.0],
+        [0.0, -3.0, 2.0, 1.0],
+        [2.0, -1.0, 2.0, 3.0],
+        [-3.0, -4.0, -1.0, 0.0],
+        [0.0, -1.0, -1.0, 3.0],
+    ];
+    const FIRST: u32 = 0b0101_0101_0101;
+    let positions = (0..5).flat_map(|x| (0..4).map(move |y| [x as f32, y as f32, 0.25 * QUARTERS[x][y]]));
+    let cell = |at: u32| {
+        let (x, y) = (at / 3, at % 3);
+        let [a, b, c, d] = [4 * x + y, 4 * (x + 1) + y, 4 * (x + 1) + y + 1, 4 * x + y + 1];
+        let is_first = FIRST >> at & 1 == 1;
+        if is_first { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    };
+    TriangleMesh {
+        positions: positions.collect(),
+        triangles: (0..12).flat_map(cell).collect(),
+        ..TriangleMesh::default()
+    }
+}
+
+#[test]
+fn a_limit_on_the_progressive_decimator() {
+    let options = BuildOptions {
+        method: Method::Progressive,
+        max_error: Some(0.8),
+        feature_angle_degrees: 180.0,
+        ..BuildOptions::default()
+    };
+    let mesh = folded_patch();
+    let build = build_all(&mesh, &options);
+    let input = corners_of(&build.mesh, &alive_at(&build.history, 0));
+    let n_certified = build.passage.as_ref().unwrap().n_certified_steps;
+    assert!(n_certified > 4, "{n_certified}");
+    for step in 0..n_certified {
+        let stated = build.history.errors[step as usize];
+        let level = corners_of(&build.mesh, &alive_at(&build.history, step));
+        let measured = one_sided(&input, &level, 8).max(one_sided(&level, &input, 8));
+        assert!(measured <= stated + 1e-9, "step {step}: measured {measured}, stated {stated}");
+    }
+}
+
+#[test]
+fn what_the_repair_drops_counts_at_every_level() {
+    let mut mesh = generate::cosine(12);
+    let n = mesh.positions.len() as u32;
+    let tip = mesh.positions[40];
+    mesh.positions.push([tip[0], tip[1], tip[2] + 5.0]);
+    mesh.triangles.push([40, n, 40]);
+    for (method, bound) in [
+        (Method::Jade, Bound::Certified),
+        (Method::Jade, Bound::Joint),
+        (Method::Progressive, Bound::Certified),
+        (Method::Progressive, Bound::Accumulated),
+    ] {
+        let options = BuildOptions { method, bound, ..BuildOptions::default() };
+        let build = build_all(&mesh, &options);
+        let [first, last] = [build.history.errors[0], *build.history.errors.last().unwrap()];
+        // The surface slopes at the foot, and so it may be nearer to the tip than the foot is.
+        assert!((4.0..=5.05).contains(&first) && first == build.dropped_distance, "{method:?}: {first}");
+        assert!(last > first, "{method:?}: {last}");
+        let beyond = BuildOptions { max_error: Some(1.0), ..options };
+        assert!(build_all(&mesh, &beyond).history.errors.iter().all(|&error| error == first));
+    }
+    // A segment along an edge, a point at a corner and a repeated triangle drop nothing that is not there still.
+    let mut harmless = generate::cosine(12);
+    let [a, b, _] = harmless.triangles[7];
+    harmless.triangles.extend([[a, b, a], [b, b, b], harmless.triangles[9]]);
+    let build = build_all(&harmless, &BuildOptions::default());
+    assert_eq!((build.dropped_distance, build.history.errors[0]), (0.0, 0.0));
 }
 
 #[test]

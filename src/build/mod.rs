@@ -21,8 +21,10 @@ use crate::decimate::jade::thresholds::Thresholds;
 use crate::decimate::progressive::complex::Complex;
 use crate::decimate::progressive::wedges::Wedges;
 use crate::decimate::progressive::{self, Passage};
+use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{Vector, length, max, min, sub, widen};
 use crate::history::{History, Recorder};
+use crate::measure::bound_of_pieces;
 use crate::mesh::{Numbering, RepairReport, Repaired, Seams, Surface, along_a_curve, check_counts, repair};
 use nephrite_formats::TriangleMesh;
 use options::check_options;
@@ -38,6 +40,8 @@ pub struct Build {
     pub history: History,
     /// What the repair did.
     pub repairs: RepairReport,
+    /// Bound on the distance of what the repair dropped from what it left, in mesh units; part of the error of every level.
+    pub dropped_distance: f64,
     /// What the progressive decimator tells beside the history.
     pub passage: Option<Passage>,
 }
@@ -115,39 +119,72 @@ fn simplify(
     if repaired.mesh.triangles.is_empty() {
         return Err(BuildError::NoTriangles { n_triangles: n_triangles_in });
     }
-    let repaired = if options.method == Method::Progressive { along_a_curve(repaired) } else { repaired };
-    let Repaired { mut mesh, points, looks, report: repairs } = repaired;
-    let points_and_looks = points.zip(looks);
-    match options.method {
-        Method::Jade => {
-            let go_on = |decimation: &Decimation| {
-                tell(Phase::Decimate, decimation.surface.n_triangles(), decimation.recorder.error())
-            };
-            let triangles = keep(&mesh);
-            let (history, moves) = decimate(&mut mesh, points_and_looks, options, &go_on)?;
-            mesh.triangles = triangles;
-            let moved = moves.into_iter().flat_map(|moves| moves.born);
-            let mesh = with_copies(mesh, moved.map(|(vertex, place)| (vertex, Some(place))));
-            Ok(Build { mesh, history, repairs, passage: None })
-        }
-        Method::Fusion => Err(BuildError::NotAVolume),
-        Method::Progressive => {
-            let go_on = |decimation: &progressive::Decimation| {
-                let error = decimation.journal.recorder.error();
-                tell(Phase::Decimate, decimation.complex.n_triangles(), error)
-            };
-            // Inside the pool from the start: to enter it for each of the many short parallel parts would cost more than they do.
-            let decimate =
-                |_: &rayon::Scope<'_>| decimate_progressively(&mesh, points_and_looks, options, &go_on);
-            let (history, passage) = rayon::scope(decimate)?;
-            Ok(Build {
-                mesh: with_copies(mesh, passage.trace.copies.iter().map(|&copied| (copied, None))),
-                history,
-                repairs,
-                passage: Some(passage),
-            })
-        }
+    let repairs = repaired.report;
+    let dropped_distance = bound_of_dropped(&repaired);
+    let options = BuildOptions { max_error: max_error.map(|error| error - dropped_distance), ..*options };
+    let tell = |n_triangles, error| tell(Phase::Decimate, n_triangles, error + dropped_distance);
+    let (mesh, mut history, passage) = match options.method {
+        Method::Jade => simplify_by_removal(repaired, &options, &tell, keep)?,
+        Method::Progressive => simplify_by_collapse(along_a_curve(repaired), &options, &tell)?,
+        Method::Fusion => return Err(BuildError::NotAVolume),
+    };
+    if dropped_distance > 0.0 {
+        history.errors.iter_mut().for_each(|error| *error += dropped_distance);
     }
+    Ok(Build { mesh, history, repairs, dropped_distance, passage })
+}
+
+/// What a decimator leaves: the mesh that its history refers to, the history, and what else there is to tell.
+type Simplified = (TriangleMesh, History, Option<Passage>);
+
+/// Told the triangles and the error of the moment; false stops the build.
+type Tell<'a> = &'a (dyn Fn(usize, f64) -> bool + Sync);
+
+/// Bound on the distance of what the repair dropped from what it left.
+fn bound_of_dropped(Repaired { mesh, dropped, .. }: &Repaired) -> f64 {
+    if dropped.is_empty() {
+        return 0.0;
+    }
+    let corners = |triangle: &[u32; 3]| triangle.map(|v| widen(mesh.positions[v as usize]));
+    let left: Vec<Triangle> = mesh.triangles.iter().map(corners).collect();
+    bound_of_pieces(dropped, &left)
+}
+
+/// Whether any error is left to be made: not where what the repair dropped has used up all that was allowed.
+fn may_change(options: &BuildOptions) -> bool {
+    options.max_error.is_none_or(|error| error > 0.0)
+}
+
+fn simplify_by_removal(
+    repaired: Repaired,
+    options: &BuildOptions,
+    tell: Tell<'_>,
+    keep: impl FnOnce(&TriangleMesh) -> Vec<[u32; 3]>,
+) -> Result<Simplified, BuildError> {
+    let Repaired { mut mesh, points, looks, .. } = repaired;
+    let go_on = |decimation: &Decimation| tell(decimation.surface.n_triangles(), decimation.recorder.error());
+    let triangles = keep(&mesh);
+    let (history, moves) = decimate(&mut mesh, points.zip(looks), options, &go_on)?;
+    mesh.triangles = triangles;
+    let moved = moves.into_iter().flat_map(|moves| moves.born);
+    Ok((with_copies(mesh, moved.map(|(vertex, place)| (vertex, Some(place)))), history, None))
+}
+
+fn simplify_by_collapse(
+    repaired: Repaired,
+    options: &BuildOptions,
+    tell: Tell<'_>,
+) -> Result<Simplified, BuildError> {
+    let Repaired { mesh, points, looks, .. } = repaired;
+    let points_and_looks = points.zip(looks);
+    let go_on = |decimation: &progressive::Decimation| {
+        tell(decimation.complex.n_triangles(), decimation.journal.recorder.error())
+    };
+    // Inside the pool from the start: to enter it for each of the many short parallel parts would cost more than they do.
+    let decimate = |_: &rayon::Scope<'_>| decimate_progressively(&mesh, points_and_looks, options, &go_on);
+    let (history, passage) = rayon::scope(decimate)?;
+    let mesh = with_copies(mesh, passage.trace.copies.iter().map(|&copied| (copied, None)));
+    Ok((mesh, history, Some(passage)))
 }
 
 fn decimate_progressively(
@@ -174,7 +211,7 @@ fn decimate_progressively(
     let complex = Complex::new(mesh.positions.clone(), triangles);
     let n_vertices = u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX);
     let mut decimation = progressive::Decimation::new(complex, wedges, n_vertices, settings);
-    if !decimation.run(go_on) {
+    if may_change(options) && !decimation.run(go_on) {
         return Err(BuildError::Interrupted);
     }
     Ok(decimation.finish())
@@ -241,11 +278,13 @@ fn decimate(
         moves,
         workers: Workers::new(),
     };
-    let thresholds = Thresholds::new(options.max_error, bounding_diagonal, &options.jade);
-    run(&mut decimation, thresholds, go_on).map_err(|unfinished| match unfinished {
-        Unfinished::Stopped => BuildError::Interrupted,
-        Unfinished::TooLarge(too_many) => too_many.into(),
-    })?;
+    if may_change(options) {
+        let thresholds = Thresholds::new(options.max_error, bounding_diagonal, &options.jade);
+        run(&mut decimation, thresholds, go_on).map_err(|unfinished| match unfinished {
+            Unfinished::Stopped => BuildError::Interrupted,
+            Unfinished::TooLarge(too_many) => too_many.into(),
+        })?;
+    }
     let Finished { history, moves, positions } = decimation.finish();
     if let Some(positions) = positions {
         mesh.positions = positions;

@@ -13,7 +13,7 @@ use crate::geometry::distance::Segment;
 /// Rounding of one distance, with everything that led to the corners it was computed from, in units of the largest
 /// coordinate: `1024 f64::EPSILON`. The closest point costs 16, placing a mesh in the frame 2, each of at most 139 cuts
 /// of a piece 1.
-const SLACK: f64 = 1.0 / (1u64 << 42) as f64;
+pub(super) const SLACK: f64 = 1.0 / (1u64 << 42) as f64;
 
 /// Two surfaces in one frame.
 pub(super) struct Pair {

@@ -20,6 +20,7 @@ use super::batch::Quarter;
 use super::polygon::Polygon;
 use super::search::{Found, Stack, Tree};
 use super::sweep::Farthest;
+use crate::geometry::distance::Triangle;
 use crate::geometry::vector::Vector;
 
 /// Rounds at most: pieces are then far below the rounding error of their corners.
@@ -175,6 +176,22 @@ pub(super) struct Parts {
 }
 
 impl Parts {
+    /// Whole triangles of the source, which may be segments and points, each with the triangle of the target that bounds it best.
+    pub(super) fn whole(triangles: &[Triangle], target: &Tree) -> Self {
+        let look = |stack: &mut Stack, triangle: &Triangle| {
+            let bound = target.search(triangle, 0, stack);
+            let farthest = triangle.iter().fold(Farthest::default(), |farthest, &point| {
+                let distance_sq = target.search(&[point], bound.triangle, stack).distance_sq;
+                farthest.or(Farthest { distance_sq, point })
+            });
+            (Piece { polygon: Polygon::from(*triangle), bound, n_cuts: 0 }, farthest)
+        };
+        let looked_at: Vec<(Piece, Farthest)> = triangles.par_iter().map_init(Stack::default, look).collect();
+        let farthest = looked_at.iter().fold(Farthest::default(), |farthest, piece| farthest.or(piece.1));
+        let open = looked_at.into_iter().map(|(piece, _)| piece).collect();
+        Self { cover: Cover { settled_sq: 0.0, open }, n_pieces: triangles.len(), farthest }
+    }
+
     /// Takes in other parts.
     pub(super) fn merge(&mut self, other: Self) {
         self.cover.merge(other.cover);

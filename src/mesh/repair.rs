@@ -13,6 +13,7 @@
 //! 5. A triangle of zero area with three distinct points is kept: its neighbours are joined through it.
 //! 6. Vertices that no triangle uses are dropped.
 
+use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{cross, length_sq, sub, widen};
 use nephrite_formats::{Attribute, TriangleMesh};
 use rayon::prelude::*;
@@ -46,6 +47,9 @@ pub struct Repaired {
     pub points: Option<Vec<u32>>,
     /// The look of each vertex, where `points` is there: the first vertex that differs from it at most in the normal.
     pub looks: Option<Vec<u32>>,
+    /// Points of the input's surface that are not part of the mesh: each is a dropped triangle with two equal corners, which is a
+    /// segment, or with three, which is a point.
+    pub dropped: Vec<Triangle>,
     /// What was done.
     pub report: RepairReport,
 }
@@ -56,18 +60,15 @@ pub fn repair(mut mesh: TriangleMesh) -> Repaired {
     let Weld { vertices, points, looks } = weld(&mesh);
     report.vertices_welded = count_moved(&vertices);
 
-    let n_triangles_in = mesh.triangles.len();
-    mesh.triangles.retain(|triangle| {
-        let [a, b, c] = triangle.map(|v| points[v as usize]);
-        a != b && b != c && c != a
-    });
-    report.triangles_degenerate = n_triangles_in - mesh.triangles.len();
+    let degenerate = take_degenerate(&mut mesh.triangles, &points);
+    report.triangles_degenerate = degenerate.len();
     for v in mesh.triangles.as_flattened_mut() {
         *v = vertices[*v as usize];
     }
     drop(vertices);
     report.triangles_duplicate = drop_duplicates(&mut mesh.triangles, &points);
     report.triangles_zero_area = mesh.triangles.iter().filter(|t| has_zero_area(&mesh, t)).count();
+    let dropped = outside(&mesh, &points, degenerate);
 
     let renumbered = renumber_referenced(mesh.positions.len(), &mesh.triangles);
     let n_used = renumbered.iter().filter(|&&v| v != UNUSED).count();
@@ -81,7 +82,7 @@ pub fn repair(mut mesh: TriangleMesh) -> Repaired {
     let looks = has_seams.then(|| first_used(&looks, &renumbered, n_used));
     let points = has_seams.then_some(points);
     keep_used(&mut mesh, &renumbered, n_used);
-    Repaired { mesh, points, looks, report }
+    Repaired { mesh, points, looks, dropped, report }
 }
 
 const UNUSED: u32 = u32::MAX;
@@ -175,6 +176,49 @@ fn value(attribute: &Attribute, v: u32) -> &[u8] {
 
 fn count_moved(vertices: &[u32]) -> usize {
     vertices.iter().zip(0..).filter(|&(&to, from): &(&u32, u32)| to != from).count()
+}
+
+/// Takes out the triangles with fewer than three points; gives the points of their corners, in ascending order.
+fn take_degenerate(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> Vec<[u32; 3]> {
+    let mut degenerate = vec![];
+    triangles.retain(|triangle| {
+        let mut corners = triangle.map(|v| points[v as usize]);
+        corners.sort_unstable();
+        let is_degenerate = corners[0] == corners[1] || corners[1] == corners[2];
+        if is_degenerate {
+            degenerate.push(corners);
+        }
+        !is_degenerate
+    });
+    degenerate
+}
+
+/// Those of the degenerate triangles that are neither a corner nor an edge of a triangle of `mesh`, each once. O(mesh) if there are
+/// any degenerate triangles.
+fn outside(mesh: &TriangleMesh, points: &[u32], mut degenerate: Vec<[u32; 3]>) -> Vec<Triangle> {
+    degenerate.sort_unstable();
+    degenerate.dedup_by_key(|&mut [low, _, high]| [low, high]);
+    let ends: Vec<[u32; 2]> = degenerate.iter().map(|&[low, _, high]| [low, high]).collect();
+    if ends.is_empty() {
+        return vec![];
+    }
+    let mut is_end = vec![false; mesh.positions.len()];
+    ends.as_flattened().iter().for_each(|&point| is_end[point as usize] = true);
+    let mut is_outside = vec![true; ends.len()];
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| points[v as usize]);
+        for [p, q] in [[a, a], [b, b], [c, c], [a, b], [b, c], [c, a]] {
+            if is_end[p as usize]
+                && is_end[q as usize]
+                && let Ok(at) = ends.binary_search(&[p.min(q), p.max(q)])
+            {
+                is_outside[at] = false;
+            }
+        }
+    }
+    let place = |point: u32| widen(mesh.positions[point as usize]);
+    let left = ends.iter().zip(is_outside).filter(|&(_, is_outside)| is_outside);
+    left.map(|(&[low, high], _)| [place(low), place(low), place(high)]).collect()
 }
 
 /// Drops every triangle whose points, in orientation, an earlier one has; returns how many.
@@ -335,5 +379,17 @@ mod tests {
             ..RepairReport::default()
         };
         assert_eq!(repaired.report, expected);
+        // The edge from 1 to 2 is there still; vertex 4 is not.
+        assert_eq!(repaired.dropped, [[[9.0; 3]; 3]]);
+    }
+
+    #[test]
+    fn segments_that_no_triangle_has_are_handed_back_once() {
+        let mut positions = CORNERS.to_vec();
+        positions.push([0.0, 0.0, 5.0]);
+        let needle = [[0, 1, 2], [2, 1, 3], [0, 0, 4], [4, 0, 4], [1, 2, 1], [3, 3, 3]];
+        let repaired = repair(mesh(&positions, &needle));
+        assert_eq!(repaired.report.triangles_degenerate, 4);
+        assert_eq!(repaired.dropped, [[[0.0; 3], [0.0; 3], [0.0, 0.0, 5.0]]]);
     }
 }

@@ -338,9 +338,23 @@ impl Outcome {
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
             "repairs": self.build.repairs,
+            "dropped_distance": self.build.dropped_distance,
             "certified_triangles": self.build.n_certified_triangles(),
             "operations": self.build.passage.as_ref().map(|passage| &passage.counts),
         })
+    }
+
+    /// What the repair did, and how far what it dropped lies from the rest.
+    fn repaired(&self) -> String {
+        let tally = figures::tally(&json!(self.build.repairs));
+        if self.build.dropped_distance > 0.0 {
+            let distance = figures::error(self.build.dropped_distance, self.input.bounding_diagonal);
+            format!(
+                "{tally}; what was dropped lies up to {distance} from the rest, which every level's error counts"
+            )
+        } else {
+            tally
+        }
     }
 
     fn text(&self, arguments: &Arguments) -> String {
@@ -351,7 +365,7 @@ impl Outcome {
         let list = figures::list(&[
             ("mesh", size(input.n_triangles, input.n_vertices)),
             ("read", figures::tally(&json!(self.read))),
-            ("repaired", figures::tally(&json!(self.build.repairs))),
+            ("repaired", self.repaired()),
             (
                 "levels",
                 format!("{}, down to {} triangles", stored.n_levels, figures::count(stored.n_coarsest)),
