@@ -22,7 +22,7 @@ fn delta(criterion: &mut Criterion) {
             group.throughput(Throughput::Elements(n_changed));
             let of = format!(
                 "{} triangles, {distance} levels on, {n_changed} changed in {n_runs} runs",
-                delta.from().n_triangles()
+                delta.from().n_simplices()
             );
             group.bench_function(BenchmarkId::new("runs", &of), |bencher| {
                 bencher.iter(|| {

@@ -15,12 +15,12 @@ fn extract(criterion: &mut Criterion) {
     let lod = Lod::from_bytes(&support::file_bytes(side, None)).unwrap();
     let (_, history) = support::surface(side);
     for n_triangles in [2_000, 20_000, 200_000, 700_000] {
-        let cut = lod.at_triangles(n_triangles);
+        let cut = lod.at_count(n_triangles);
         let mut indices = vec![0u32; cut.n_indices()];
         let source = &lod.indices()[..cut.n_indices()];
-        group.throughput(Throughput::Elements(cut.n_triangles() as u64));
+        group.throughput(Throughput::Elements(cut.n_simplices() as u64));
         let id =
-            |name| BenchmarkId::new(name, format!("{} triangles, {} runs", cut.n_triangles(), cut.n_runs()));
+            |name| BenchmarkId::new(name, format!("{} triangles, {} runs", cut.n_simplices(), cut.n_runs()));
         group.bench_function(id("copy"), |bencher| {
             bencher.iter(|| cut.extract_into(black_box(&mut indices)).unwrap());
         });
@@ -35,7 +35,7 @@ fn extract(criterion: &mut Criterion) {
         });
         let step = black_box(history.errors.partition_point(|&error| error <= cut.error()) - 1);
         let step = u32::try_from(step).unwrap();
-        let mut gathered = Vec::with_capacity(cut.n_triangles() + 16);
+        let mut gathered = Vec::with_capacity(cut.n_simplices() + 16);
         group.sample_size(10);
         group.bench_function(id("naive: linear scan"), |bencher| {
             bencher.iter(|| {

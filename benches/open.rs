@@ -54,7 +54,7 @@ fn open(criterion: &mut Criterion) {
 fn first_cut(path: &Path) -> Vec<u32> {
     // SAFETY: the temporary file is ours and nobody writes to it.
     let lod = unsafe { Lod::map(black_box(path)) }.unwrap();
-    let cut = lod.at_triangles(lod.at_level(0).n_triangles() / 10);
+    let cut = lod.at_count(lod.at_level(0).n_simplices() / 10);
     let mut indices = vec![0; cut.n_indices()];
     cut.extract_into(&mut indices).unwrap();
     indices

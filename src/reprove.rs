@@ -88,7 +88,7 @@ impl<'a> ErrorTable<'a> {
             return Err(ReproveError::NotCertified { found });
         }
         let least = metadata.provenance.certified_simplices.unwrap_or(0);
-        let n_certified = lod.curve().take_while(|point| u64::from(point.triangles) >= least).count();
+        let n_certified = lod.curve().take_while(|point| u64::from(point.simplices) >= least).count();
         let last_certified = u32::try_from(n_certified.saturating_sub(1)).unwrap_or(u32::MAX);
         let input = surface(lod, &lod.at_level(0))?;
         let largest = input.positions.iter().flatten().fold(0.0_f32, |largest, x| largest.max(x.abs()));

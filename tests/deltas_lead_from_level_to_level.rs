@@ -66,11 +66,11 @@ fn follow(lod: &Lod, levels: impl Iterator<Item = u32>) {
     let mut before = 0;
     for level in levels {
         let delta = lod.delta(before, level);
-        let n_before = delta.from().n_triangles();
+        let n_before = delta.from().n_simplices();
         let n_leaving = followed.change(delta.leaving(), false);
         let n_entering = followed.change(delta.entering(), true);
         assert_eq!(followed.sum, direct[level as usize], "from {before} to {level}");
-        assert_eq!(n_before - n_leaving + n_entering, delta.to().n_triangles());
+        assert_eq!(n_before - n_leaving + n_entering, delta.to().n_simplices());
         before = level;
     }
 }

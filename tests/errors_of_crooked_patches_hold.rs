@@ -114,7 +114,7 @@ fn check(name: &str, mesh: &TriangleMesh, options: &BuildOptions, n: u32) -> u32
     };
     let lod = served(&build.mesh, &build.history, &provenance);
     let table = ErrorTable::new(&lod).unwrap();
-    let last = (0..=table.last_certified()).rev().find(|&level| lod.at_level(level).n_triangles() > 0);
+    let last = (0..=table.last_certified()).rev().find(|&level| lod.at_level(level).n_simplices() > 0);
     let last = last.unwrap_or(0);
     for level in (1..=n).map(|i| last * i / n) {
         table.prove(level).unwrap_or_else(|error| panic!("{name}, {options:?}: {error}"));

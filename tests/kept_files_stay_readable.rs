@@ -120,7 +120,7 @@ fn contents<const CORNERS: usize>(
 fn answers(bytes: &[u8]) -> String {
     let lod = Lod::from_bytes(bytes).unwrap();
     lod.verify().unwrap();
-    let counts: Vec<usize> = lod.curve().map(|point| point.triangles as usize).collect();
+    let counts: Vec<usize> = lod.curve().map(|point| point.simplices as usize).collect();
     let mut all = Vec::new();
     for level in 0..lod.n_levels() {
         let cut = lod.at_level(level);

@@ -104,14 +104,14 @@ fn queries_give_the_level_that_a_scan_of_the_curve_gives() {
         let expected = curve.iter().rposition(|point| point.error <= error).unwrap_or(0);
         assert_eq!(lod.at_error(error).level() as usize, expected, "{error}");
     }
-    for n_triangles in (0..curve[0].triangles as usize + 2).chain([usize::MAX]) {
-        let expected = curve.iter().position(|point| point.triangles as usize <= n_triangles);
-        let cut = lod.at_triangles(n_triangles);
+    for n_triangles in (0..curve[0].simplices as usize + 2).chain([usize::MAX]) {
+        let expected = curve.iter().position(|point| point.simplices as usize <= n_triangles);
+        let cut = lod.at_count(n_triangles);
         assert_eq!(cut.level() as usize, expected.unwrap_or(curve.len() - 1), "{n_triangles}");
     }
     for (level, point) in (0..).zip(&curve) {
         let cut = lod.at_level(level);
-        assert_eq!((cut.error(), cut.n_triangles()), (point.error, point.triangles as usize));
+        assert_eq!((cut.error(), cut.n_simplices()), (point.error, point.simplices as usize));
         assert_eq!(cut.vertex_count(), point.vertices as usize);
         assert!(cut.n_runs() <= (usize::BITS - (curve.len() - 1).leading_zeros()) as usize + 1);
     }
@@ -150,7 +150,7 @@ fn tetrahedra_are_stored_like_triangles() {
         cut.extract_into(&mut indices).unwrap();
         assert!(indices.iter().all(|&index| (index as usize) < cut.vertex_count()));
         let n_alive = (0..300).filter(|&id| history.birth[id] <= step && step < history.death[id]).count();
-        assert_eq!(cut.n_triangles(), n_alive);
+        assert_eq!(cut.n_simplices(), n_alive);
         assert_eq!(cut.to_mesh(), Err(QueryError::NotTriangles { found: 4 }));
     }
 }

@@ -78,7 +78,7 @@ fn a_file_of_twenty_gigabytes_opens_by_its_head() {
     assert_eq!(lod.file_bytes(), file_bytes);
     assert_eq!(lod.at_level(0).n_runs(), 0);
     let cut = lod.at_level(u32::MAX);
-    assert_eq!(cut.n_triangles(), 5);
+    assert_eq!(cut.n_simplices(), 5);
     let mut indices = vec![1; 15];
     assert_eq!(cut.extract_into(&mut indices), Ok(15));
     assert_eq!(indices[9..], [0, 0, 0, 7, 8, 9]);

@@ -22,7 +22,7 @@ fn an_ordered_copy_is_the_same_set_with_fewer_misses() {
     let history = decimate(&mesh, usize::MAX, 2);
     let lod = Lod::from_bytes(&support::file_bytes(&mesh, &history, None)).unwrap();
     for n_triangles in [20_000, 10_000, 2_000, 500] {
-        let cut = lod.at_triangles(n_triangles);
+        let cut = lod.at_count(n_triangles);
         let n_indices = cut.n_indices();
         let [mut plain, mut ordered] = [vec![0; n_indices + 3], vec![u32::MAX; n_indices + 3]];
         assert_eq!(cut.extract_into(&mut plain), Ok(n_indices));

@@ -68,10 +68,10 @@ pub fn build_lod(
 /// coarsest, the first has already lost triangles.
 pub fn spread_levels(lod: &Lod, n: u32) -> Vec<u32> {
     let [finest, coarsest] =
-        [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_triangles().max(1) as f64);
+        [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_simplices().max(1) as f64);
     let wanted = (1..=n).map(|i| finest * (coarsest / finest).powf(f64::from(i) / f64::from(n)));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two counts")]
-    let mut levels: Vec<u32> = wanted.map(|n| lod.at_triangles(n.round() as usize).level()).collect();
+    let mut levels: Vec<u32> = wanted.map(|n| lod.at_count(n.round() as usize).level()).collect();
     levels.dedup();
     levels
 }

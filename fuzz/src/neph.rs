@@ -100,7 +100,7 @@ fn ask(lod: &Lod, script: &mut Script<'_>) {
         let cut = match script.u8() % 6 {
             0 => lod.at_level(script.u32()),
             1 => lod.at_error(script.f64()),
-            2 => lod.at_triangles(script.u16().into()),
+            2 => lod.at_count(script.u16().into()),
             3 => {
                 let projection = match script.u8() % 2 {
                     0 => Projection::Perspective { fov_y: script.f64(), near: script.f64() },

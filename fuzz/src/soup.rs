@@ -215,7 +215,7 @@ fn written<'a, const CORNERS: usize>(
 fn check_file(bytes: &[u8], n_triangles: usize) -> Lod {
     let lod = Lod::from_bytes(bytes).unwrap();
     lod.verify().unwrap();
-    assert_eq!(lod.at_level(0).n_triangles(), n_triangles);
+    assert_eq!(lod.at_level(0).n_simplices(), n_triangles);
     let mut before = usize::MAX;
     for level in 0..lod.n_levels() {
         let mesh = lod.at_level(level).to_mesh().unwrap();

@@ -90,7 +90,7 @@ fn model_statistics(name: String, model: &Model) -> ModelStatistics {
     let lod = model.lod();
     ModelStatistics {
         name,
-        triangles: lod.at_level(0).n_triangles(),
+        triangles: lod.at_level(0).n_simplices(),
         levels: lod.n_levels(),
         index_bytes: size_of_val(lod.indices()),
         vertex_bytes: model.vertex_bytes(),
@@ -99,7 +99,7 @@ fn model_statistics(name: String, model: &Model) -> ModelStatistics {
 
 fn n_finest(frame: &Frame, models: &[Model]) -> u64 {
     let of_group = |group: &nephrite_renderer::Group| {
-        models[group.model].lod().at_level(0).n_triangles() as u64 * group.instances.len() as u64
+        models[group.model].lod().at_level(0).n_simplices() as u64 * group.instances.len() as u64
     };
     frame.groups.iter().map(of_group).sum()
 }

@@ -70,7 +70,7 @@ fn every_level_drawn_as_runs_is_the_picture_of_its_copy() {
         let mut frame = Frame { instances: instances.clone(), groups, draws: Vec::new() };
         frame.list_draws(&models);
         let cut = models[0].lod().at_level(level);
-        assert_eq!((frame.draws.len(), frame.n_triangles()), (cut.n_runs(), cut.n_triangles() as u64));
+        assert_eq!((frame.draws.len(), frame.n_triangles()), (cut.n_runs(), cut.n_simplices() as u64));
 
         let drawn = by_runs(&renderer, &camera, &frame, &models);
         let copied = by_copies(&gpu, &renderer, &camera, &frame, &models);
@@ -123,7 +123,7 @@ fn a_tolerance_is_kept_and_a_tighter_one_takes_more_triangles() {
         let look =
             Look { camera: Camera::on_flight(0.0, field.half(), SIZE_PX), max_error_px, color: Color::Stone };
         field.choose(&models, &look, &mut frame);
-        let finest = models[0].lod().at_level(0).n_triangles() * frame.instances.len();
+        let finest = models[0].lod().at_level(0).n_simplices() * frame.instances.len();
         assert!(frame.n_triangles() < before);
         assert_eq!(frame.n_triangles() == finest as u64, max_error_px < 0.1);
         before = frame.n_triangles();

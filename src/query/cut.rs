@@ -9,7 +9,7 @@ use nephrite_formats::TriangleMesh;
 ///
 /// ```no_run
 /// # let lod = nephrite::Lod::open("bunny.neph")?;
-/// let cut = lod.at_triangles(10_000);
+/// let cut = lod.at_count(10_000);
 /// let mut indices = vec![0; cut.n_indices()];
 /// cut.extract_into(&mut indices)?;
 /// let positions = cut.vertices();
@@ -54,19 +54,14 @@ impl<'a> Cut<'a> {
         self.runs().count()
     }
 
-    /// Triangles in all runs.
-    pub fn n_triangles(&self) -> usize {
-        self.runs().map(|run| run.len as usize).sum()
-    }
-
     /// Simplices in all runs: triangles of a surface, tetrahedra of a volume.
     pub fn n_simplices(&self) -> usize {
-        self.n_triangles()
+        self.runs().map(|run| run.len as usize).sum()
     }
 
     /// Vertex indices in all runs: what [`extract_into`](Self::extract_into) writes.
     pub fn n_indices(&self) -> usize {
-        self.n_triangles() * self.lod.n_corners() as usize
+        self.n_simplices() * self.lod.n_corners() as usize
     }
 
     /// Length of the prefix of [`Lod::vertices`] that holds the vertices of the level: what a vertex buffer needs, and the
@@ -104,7 +99,7 @@ impl<'a> Cut<'a> {
         if let Some(vertex) = positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
             return Err(QueryError::Position { vertex });
         }
-        let mut triangles = vec![[0; 3]; self.n_triangles()];
+        let mut triangles = vec![[0; 3]; self.n_simplices()];
         self.extract_into(triangles.as_flattened_mut())?;
         self.check_indices(triangles.as_flattened())?;
         let used = UsedVertices::compact(triangles.as_flattened_mut(), positions.len());

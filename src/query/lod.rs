@@ -1,6 +1,6 @@
 //! All levels of detail of one mesh.
 
-use super::Cut;
+use super::{Cut, Simplex};
 use crate::store::{AttributeView, Metadata, OpenError, Opened, VerifyError};
 use std::path::Path;
 
@@ -25,12 +25,12 @@ pub struct Lod {
 }
 
 /// One level on the curve of error against size.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
     /// Error of the level, in mesh units.
     pub error: f64,
-    /// Its triangles.
-    pub triangles: u32,
+    /// Its simplices: triangles of a surface, tetrahedra of a volume.
+    pub simplices: u32,
     /// Its vertices.
     pub vertices: u32,
 }
@@ -67,10 +67,10 @@ impl Lod {
         self.at_index(n_within.saturating_sub(1))
     }
 
-    /// The finest level with at most `n_triangles` triangles; the coarsest level where there is none. Cost: a binary search
-    /// over the levels.
-    pub fn at_triangles(&self, n_triangles: usize) -> Cut<'_> {
-        let n_above = self.file.simplex_counts().partition_point(|&stated| stated as usize > n_triangles);
+    /// The finest level with at most `n_simplices` simplices; the coarsest level if every level has more.
+    /// Cost: a binary search over the levels.
+    pub fn at_count(&self, n_simplices: usize) -> Cut<'_> {
+        let n_above = self.file.simplex_counts().partition_point(|&stated| stated as usize > n_simplices);
         self.at_index(n_above)
     }
 
@@ -100,12 +100,12 @@ impl Lod {
     pub fn curve(&self) -> impl ExactSizeIterator<Item = CurvePoint> + '_ {
         let mut n_unborn = self.unborn_counts().into_iter();
         let counts = self.file.simplex_counts().iter().zip(self.file.vertex_counts());
-        let counts = counts.map(move |(&triangles, &vertices)| {
-            (triangles, vertices.saturating_sub(n_unborn.next().unwrap_or(0)))
+        let counts = counts.map(move |(&simplices, &vertices)| {
+            (simplices, vertices.saturating_sub(n_unborn.next().unwrap_or(0)))
         });
-        self.errors().iter().zip(counts).map(|(&error, (triangles, vertices))| CurvePoint {
+        self.errors().iter().zip(counts).map(|(&error, (simplices, vertices))| CurvePoint {
             error,
-            triangles,
+            simplices,
             vertices,
         })
     }
@@ -149,7 +149,12 @@ impl Lod {
         self.file.attributes()
     }
 
-    /// Vertex indices per simplex: 3 for triangles.
+    /// What the file holds: triangles of a surface or tetrahedra of a volume.
+    pub fn simplex(&self) -> Simplex {
+        if self.n_corners() == 4 { Simplex::Tetrahedron } else { Simplex::Triangle }
+    }
+
+    /// Vertex indices per simplex: 3 for triangles, 4 for tetrahedra.
     pub fn n_corners(&self) -> u32 {
         self.file.header().n_corners
     }

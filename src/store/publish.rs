@@ -40,7 +40,7 @@ use std::path::Path;
 /// let report = write(&path, &mesh, &history, &Provenance::default(), &StoreOptions::default())?;
 /// assert_eq!(report.n_levels, 2);
 /// let lod = nephrite::Lod::open(&path)?;
-/// assert_eq!(lod.at_error(0.7).n_triangles(), 1);
+/// assert_eq!(lod.at_error(0.7).n_simplices(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write<'a, const CORNERS: usize>(

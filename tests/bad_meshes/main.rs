@@ -50,7 +50,7 @@ fn outcome(path: &Path) -> String {
         Err(error) => panic!("{}: {error}", path.display()),
     };
     let lod = served(&build.mesh, &build.history, &Provenance::default());
-    let triangles = format!("{} triangles", lod.at_level(0).n_triangles());
+    let triangles = format!("{} triangles", lod.at_level(0).n_simplices());
     told(&triangles, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
 }
 

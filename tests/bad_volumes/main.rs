@@ -80,7 +80,7 @@ fn outcome(path: &Path) -> String {
         Err(error) => panic!("{}: {error}", path.display()),
     };
     let lod = served(&build.mesh, &build.history, &Provenance::default());
-    let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_triangles());
+    let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_simplices());
     told(&tetrahedra, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
 }
 

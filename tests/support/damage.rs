@@ -112,7 +112,7 @@ pub fn open_and_use(bytes: &[u8]) -> Outcome {
     let mut buffer = vec![0; lod.indices().len()];
     let n_levels = lod.n_levels();
     let mut queries: Vec<_> = (0..n_levels.min(200)).map(|level| lod.at_level(level)).collect();
-    queries.extend([lod.at_error(f64::NAN), lod.at_error(0.1), lod.at_triangles(0), lod.at_triangles(10)]);
+    queries.extend([lod.at_error(f64::NAN), lod.at_error(0.1), lod.at_count(0), lod.at_count(10)]);
     queries.push(lod.at_level(n_levels.wrapping_add(7)));
     for cut in queries {
         let mut end = 0;

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use serde_json::Value;
+use nephrite::query::{CurvePoint, Simplex};
+use serde_json::{Value, json};
 
 /// A count with its thousands apart: `69,451`.
 pub(crate) fn count(value: impl TryInto<u64>) -> String {
@@ -21,6 +22,16 @@ pub(crate) fn count(value: impl TryInto<u64>) -> String {
 /// A count of things, of which `thing` is one: `1 level`, `369 levels`.
 pub(crate) fn counted(n: usize, thing: &str) -> String {
     format!("{} {thing}{}", count(n), if n == 1 { "" } else { "s" })
+}
+
+/// A count of simplices: `69,451 triangles`, `384 tetrahedra`.
+pub(crate) fn simplices(n: impl TryInto<u64>, simplex: Simplex) -> String {
+    format!("{} {simplex}", count(n))
+}
+
+/// A level of the error curve as JSON: `error`, `vertices`, and `triangles` or `tetrahedra`.
+pub(crate) fn curve_point(point: CurvePoint, simplex: Simplex) -> Value {
+    json!({ "error": point.error, (simplex.to_string()): point.simplices, "vertices": point.vertices })
 }
 
 /// A number to four significant digits: `0.001234`, `12.35`, `1.235e-9`.
@@ -139,6 +150,16 @@ mod tests {
     #[test]
     fn one_thing_is_one() {
         assert_eq!([0, 1, 1234].map(|n| counted(n, "level")), ["0 levels", "1 level", "1,234 levels"]);
+    }
+
+    #[test]
+    fn simplices_are_called_by_their_name() {
+        assert_eq!(simplices(1234_u64, Simplex::Tetrahedron), "1,234 tetrahedra");
+        let point = CurvePoint { error: 0.5, simplices: 7, vertices: 5 };
+        assert_eq!(
+            curve_point(point, Simplex::Triangle),
+            json!({ "error": 0.5, "triangles": 7, "vertices": 5 })
+        );
     }
 
     #[test]

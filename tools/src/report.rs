@@ -22,14 +22,6 @@ pub(crate) enum Form {
 }
 
 impl Report {
-    /// The same of a volume: keys and words that name triangles name tetrahedra.
-    pub(crate) fn of_simplices(self, n_corners: u32) -> Self {
-        if n_corners != 4 {
-            return self;
-        }
-        Self { text: self.text.replace("triangles", "tetrahedra"), json: rename_keys(self.json) }
-    }
-
     /// Writes the result to stdout; a reader that has gone away is no failure.
     ///
     /// # Errors
@@ -46,22 +38,6 @@ impl Report {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             other => other,
         }
-    }
-}
-
-/// Keys that name triangles made to name tetrahedra, at every depth that the commands' own tables have.
-fn rename_keys(value: Value) -> Value {
-    match value {
-        Value::Object(entries) => {
-            let renamed = entries.into_iter().map(|(key, value)| {
-                // What the builder wrote down about itself stays as it is.
-                let is_foreign = matches!(key.as_str(), "options" | "repairs" | "attributes");
-                (key.replace("triangles", "tetrahedra"), if is_foreign { value } else { rename_keys(value) })
-            });
-            Value::Object(renamed.collect())
-        }
-        Value::Array(values) => Value::Array(values.into_iter().map(rename_keys).collect()),
-        other => other,
     }
 }
 

@@ -60,3 +60,42 @@ fn kinds_are_not_mixed_up() {
         assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     }
 }
+
+/// Two tetrahedra with a field, as text.
+const TWO_TETRAHEDRA: &str = "\
+# vtk DataFile Version 3.0
+two tetrahedra
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 5 float
+0 0 0 1 0 0 0 1 0 0 0 1 1 1 1
+CELLS 2 10
+4 0 1 2 3
+4 1 2 3 4
+CELL_TYPES 2
+10 10
+POINT_DATA 5
+SCALARS triangles_in float 1
+LOOKUP_TABLE default
+0 1 2 3 4
+";
+
+/// A file or a field may be called as the simplices of the other kind are: names stay as they are.
+#[test]
+fn words_for_simplices_do_not_reach_into_names() {
+    let place = Workplace::new();
+    std::fs::create_dir(place.path("triangles")).expect("a folder");
+    place.write("triangles/two.vtk", TWO_TETRAHEDRA);
+    let text = place.done("build triangles/two.vtk -o triangles/two.neph");
+    assert!(text.starts_with("triangles/two.neph\n"), "{text}");
+    assert!(place.done("info triangles/two.neph").starts_with("triangles/two.neph\n"));
+    let text = place.done("extract triangles/two.neph --level 0 -o triangles/lod.vtu");
+    assert!(text.starts_with("triangles/lod.vtu: 2 tetrahedra, 5 vertices, "), "{text}");
+    let extract = place.json("extract triangles/two.neph --level 0 -o triangles/lod.vtu");
+    assert!(extract["deviations"]["triangles_in"].is_number(), "{extract}");
+    assert_eq!(number(&extract, "tetrahedra"), 2.0);
+    let info = place.json("info triangles/two.neph");
+    assert_eq!(info["attributes"][0]["name"], "triangles_in");
+    assert_eq!(number(&info["curve"][0], "tetrahedra"), 2.0);
+    assert!(info["curve"][0]["triangles"].is_null() && info["triangles_in"].is_null(), "{info}");
+}

@@ -83,7 +83,7 @@ fn run(arguments: &Arguments) -> Result<(), CompareError> {
             let (plain, compact) = (bytes(false)?, bytes(true)?);
             let lod = Lod::from_bytes(&plain)?;
             let counts: Vec<usize> =
-                (0..lod.n_levels()).map(|level| lod.at_level(level).n_triangles()).collect();
+                (0..lod.n_levels()).map(|level| lod.at_level(level).n_simplices()).collect();
             let most_runs = (0..lod.n_levels()).map(|level| lod.at_level(level).n_runs()).max();
             table.push([
                 name.clone(),
@@ -123,7 +123,7 @@ fn percent(part: f64) -> String {
 fn miss_ratios(lod: &Lod, n_triangles: f64) -> String {
     PARTS
         .map(|part| {
-            let cut = lod.at_triangles((part * n_triangles) as usize);
+            let cut = lod.at_count((part * n_triangles) as usize);
             format!("{:.2}", cut.miss_ratio(CACHE_LEN))
         })
         .join(" / ")

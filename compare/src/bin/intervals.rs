@@ -98,7 +98,7 @@ fn lifetimes(lod: &Lod) -> Result<Vec<Lived>, CompareError> {
 }
 
 fn extract(cut: Cut<'_>) -> Result<Vec<Triangle>, CompareError> {
-    let mut triangles = vec![[0; 3]; cut.n_triangles()];
+    let mut triangles = vec![[0; 3]; cut.n_simplices()];
     cut.extract_into(triangles.as_flattened_mut())?;
     Ok(triangles)
 }

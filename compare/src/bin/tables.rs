@@ -66,7 +66,7 @@ impl Study {
     fn level(&self, cut: Cut<'_>) -> Result<Level, CompareError> {
         let Distance { max, bounding_diagonal, .. } = measure(&self.mesh, &cut.to_mesh()?, &self.options)?;
         let percent = |length| 100.0 * length / bounding_diagonal;
-        Ok(Level { n_triangles: cut.n_triangles(), stated: percent(cut.error()), measured: percent(max) })
+        Ok(Level { n_triangles: cut.n_simplices(), stated: percent(cut.error()), measured: percent(max) })
     }
 }
 
@@ -194,9 +194,9 @@ fn print_at_triangles(studies: &[Study]) -> Result<(), CompareError> {
     let (mut ratios, mut moved_ratios) = (vec![], vec![]);
     for (study, row) in rows_of(studies, &AT_TRIANGLES, |row: &AtTriangles| row.subject) {
         let n_triangles = row.n_triangles as usize;
-        let certified = study.level(study.certified.lod.at_triangles(n_triangles))?;
-        let moved = study.level(study.moved.lod.at_triangles(n_triangles))?;
-        let joint = study.level(study.joint.lod.at_triangles(n_triangles))?;
+        let certified = study.level(study.certified.lod.at_count(n_triangles))?;
+        let moved = study.level(study.moved.lod.at_count(n_triangles))?;
+        let joint = study.level(study.joint.lod.at_count(n_triangles))?;
         let (which, best) = row.best();
         ratios.push(certified.measured / best);
         moved_ratios.push(moved.measured / best);

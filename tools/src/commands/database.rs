@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use nephrite::TriangleMesh;
 use nephrite::history::{History, Levels};
-use nephrite::query::CurvePoint;
+use nephrite::query::{CurvePoint, Simplex};
 use nephrite::store::check_attributes;
 use nephrite_formats::{MeshFormat, VolumeFormat, neph, read_input};
 use rayon::prelude::*;
@@ -206,7 +206,7 @@ fn read_part(part: &Path, bytes: Vec<u8>) -> Result<TriangleMesh, Failure> {
 }
 
 /// Some levels of the file that was made of this history.
-fn curve(arguments: &Arguments, history: &History) -> Result<Vec<CurvePoint>, Failure> {
+fn curve(arguments: &Arguments, history: &History) -> Result<Vec<Value>, Failure> {
     let levels = Levels::choose(history, arguments.stored().levels)
         .map_err(|source| Failure::file(arguments.output(), source))?;
     let n_vertices = |step: u32| {
@@ -223,12 +223,12 @@ fn curve(arguments: &Arguments, history: &History) -> Result<Vec<CurvePoint>, Fa
     let stride = levels.len().div_ceil(MAX_CURVE_POINTS).max(1);
     let last = levels.len() - 1;
     let shown = levels.iter().enumerate().filter(|(at, _)| at % stride == 0 || *at == last);
-    let points = shown.map(|(_, &(step, triangles))| CurvePoint {
+    let points = shown.map(|(_, &(step, simplices))| CurvePoint {
         error: history.errors[step as usize],
-        triangles,
+        simplices,
         vertices: u32::try_from(n_vertices(step)).unwrap_or(u32::MAX),
     });
-    Ok(points.collect())
+    Ok(points.map(|point| figures::curve_point(point, Simplex::Triangle)).collect())
 }
 
 /// Builds a part that is a volume.
@@ -238,10 +238,6 @@ fn build_volume(arguments: &Arguments) -> Result<Value, Failure> {
     let stride = lod.curve().len().div_ceil(MAX_CURVE_POINTS).max(1);
     let last = lod.curve().len() - 1;
     let shown = lod.curve().enumerate().filter(|(at, _)| at % stride == 0 || *at == last);
-    built["curve"] = shown
-        .map(|(_, CurvePoint { error, triangles, vertices })| {
-            json!({ "error": error, "tetrahedra": triangles, "vertices": vertices })
-        })
-        .collect();
+    built["curve"] = shown.map(|(_, point)| figures::curve_point(point, Simplex::Tetrahedron)).collect();
     Ok(built)
 }

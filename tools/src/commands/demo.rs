@@ -100,13 +100,13 @@ impl Row {
     fn measure(percent_asked: f64, cut: Cut<'_>, history: &History, mesh: Option<PathBuf>) -> Self {
         let (lod, error) = (cut.lod(), cut.error());
         let mut indices = vec![0; cut.n_indices()];
-        let mut triangles = Vec::with_capacity(cut.n_triangles());
+        let mut triangles = Vec::with_capacity(cut.n_simplices());
         let [seconds, naive_seconds] = stopwatch::in_turn(
             || _ = black_box(lod.at_error(black_box(error)).extract_into(black_box(&mut indices))),
             || scan(history, black_box(error), black_box(&mut triangles)),
         );
         let percent = 100.0 * error / lod.bounding_diagonal();
-        let (n_triangles, n_runs) = (cut.n_triangles(), cut.n_runs());
+        let (n_triangles, n_runs) = (cut.n_simplices(), cut.n_runs());
         Self { percent_asked, percent, n_triangles, n_runs, seconds, naive_seconds, mesh }
     }
 
@@ -157,7 +157,7 @@ fn text(lod: &Lod, rows: &[Row], file: &Path, build_time: Duration) -> String {
          Any of them is a few runs of one index buffer. Errors are in percent of the diagonal; times\n\
          are from the error to a filled index buffer, in microseconds, beside a scan of all triangles.\n\n{}\n\
          Next: nephrite extract {} --error 0.3% -o lod.ply\n",
-        figures::count(lod.at_level(0).n_triangles()),
+        figures::count(lod.at_level(0).n_simplices()),
         figures::count(lod.n_levels()),
         figures::time(build_time),
         figures::bytes(lod.file_bytes()),
@@ -171,7 +171,7 @@ fn json(lod: &Lod, rows: &[Row], build_time: Duration) -> Value {
     let written: Vec<_> =
         rows.iter().filter_map(|row| row.mesh.as_ref()).map(|path| path.to_string_lossy()).collect();
     json!({
-        "triangles_in": lod.at_level(0).n_triangles(),
+        "triangles_in": lod.at_level(0).n_simplices(),
         "levels": lod.n_levels(),
         "bounding_diagonal": lod.bounding_diagonal(),
         "seconds": build_time.as_secs_f64(),

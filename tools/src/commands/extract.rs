@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use nephrite::query::{INFLECTION_RATIO, QueryError};
+use nephrite::query::{INFLECTION_RATIO, QueryError, Simplex};
 use nephrite::volume::Plane;
 use nephrite::{Cut, Lod, TetrahedronMesh, TriangleMesh};
 use nephrite_formats::MeshError;
@@ -76,14 +76,10 @@ impl Selector {
             return Ok(cut);
         }
         if let Some(n_triangles) = self.triangles {
-            let cut = lod.at_triangles(n_triangles as usize);
-            if cut.n_triangles() > n_triangles as usize {
-                let found = figures::count(cut.n_triangles());
-                let simplices = if lod.n_corners() == 4 { "tetrahedra" } else { "triangles" };
-                report::note(&format!(
-                    "{}: the coarsest level has {found} {simplices} still",
-                    file.display()
-                ));
+            let cut = lod.at_count(n_triangles as usize);
+            if cut.n_simplices() > n_triangles as usize {
+                let found = figures::simplices(cut.n_simplices(), lod.simplex());
+                report::note(&format!("{}: the coarsest level still has {found}", file.display()));
             }
             return Ok(cut);
         }
@@ -119,7 +115,7 @@ impl Part {
         Ok(match arguments.slice {
             Some(plane) => Self::Surface(cut.slice(&plane)?),
             None if arguments.boundary => Self::Surface(cut.boundary()?),
-            None if cut.lod().n_corners() == 4 => Self::Volume(cut.to_volume()?),
+            None if cut.lod().simplex() == Simplex::Tetrahedron => Self::Volume(cut.to_volume()?),
             None => Self::Surface(cut.to_mesh()?),
         })
     }
@@ -131,11 +127,11 @@ impl Part {
         }
     }
 
-    /// Simplices and vertices, and the corners of a simplex.
-    fn sizes(&self) -> (usize, usize, u32) {
+    /// Simplices and vertices, and what the simplices are.
+    fn sizes(&self) -> (usize, usize, Simplex) {
         match self {
-            Self::Surface(mesh) => (mesh.triangles.len(), mesh.positions.len(), 3),
-            Self::Volume(mesh) => (mesh.tetrahedra.len(), mesh.positions.len(), 4),
+            Self::Surface(mesh) => (mesh.triangles.len(), mesh.positions.len(), Simplex::Triangle),
+            Self::Volume(mesh) => (mesh.tetrahedra.len(), mesh.positions.len(), Simplex::Tetrahedron),
         }
     }
 }
@@ -150,7 +146,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         files::check_mesh_output(output, &[file])?;
     }
     let lod = files::open_lod(file)?;
-    let is_volume = lod.n_corners() == 4 && !boundary && slice.is_none();
+    let is_volume = lod.simplex() == Simplex::Tetrahedron && !boundary && slice.is_none();
     if is_volume != files::is_volume(output) {
         let kind = if is_volume { "a volume" } else { "a surface" };
         return Err(Failure::Kind { path: output.clone(), kind });
@@ -160,19 +156,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     interrupt::check()?;
     part.write(output)?;
     let seconds = start.elapsed();
-    let (n_simplices, n_vertices, n_corners) = part.sizes();
-    let report = Report {
+    let (n_simplices, n_vertices, simplex) = part.sizes();
+    Ok(Report {
         text: format!(
-            "{}: {} triangles, {} vertices, error {}, level {}, {}\n",
+            "{}: {}, {} vertices, error {}, level {}, {}\n",
             output.display(),
-            figures::count(n_simplices),
+            figures::simplices(n_simplices, simplex),
             figures::count(n_vertices),
             figures::error(cut.error(), lod.bounding_diagonal()),
             cut.level(),
             figures::time(seconds)
         ),
         json: json!({
-            "triangles": n_simplices,
+            (simplex.to_string()): n_simplices,
             "vertices": n_vertices,
             "error": cut.error(),
             "deviations": deviations(&cut),
@@ -181,8 +177,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             "bounding_diagonal": lod.bounding_diagonal(),
             "seconds": seconds.as_secs_f64(),
         }),
-    };
-    Ok(report.of_simplices(n_corners))
+    })
 }
 
 /// What the level states beside its error, by name.

@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::builder::RangedI64ValueParser;
 use clap::{Subcommand, value_parser};
 use nephrite::generate::{self, Drilling};
+use nephrite::query::Simplex;
 use nephrite::{TetrahedronMesh, TriangleMesh};
 use serde_json::json;
 
@@ -247,28 +248,27 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     }
     let generated = arguments.kind.generate();
     interrupt::check()?;
-    let [n_simplices, n_vertices] = match &generated {
+    let (n_simplices, n_vertices, simplex) = match &generated {
         Generated::Surface(mesh) => {
             nephrite_formats::write_mesh(output, mesh)?;
-            [mesh.triangles.len(), mesh.positions.len()]
+            (mesh.triangles.len(), mesh.positions.len(), Simplex::Triangle)
         }
         Generated::Volume(mesh) => {
             nephrite_formats::write_volume(output, mesh)?;
-            [mesh.tetrahedra.len(), mesh.positions.len()]
+            (mesh.tetrahedra.len(), mesh.positions.len(), Simplex::Tetrahedron)
         }
     };
-    let report = Report {
+    Ok(Report {
         text: format!(
-            "{}: {} triangles, {} vertices\n",
+            "{}: {}, {} vertices\n",
             output.display(),
-            figures::count(n_simplices),
+            figures::simplices(n_simplices, simplex),
             figures::count(n_vertices)
         ),
         json: json!({
-            "triangles": n_simplices,
+            (simplex.to_string()): n_simplices,
             "vertices": n_vertices,
             "seconds": start.elapsed().as_secs_f64(),
         }),
-    };
-    Ok(report.of_simplices(if is_volume { 4 } else { 3 }))
+    })
 }

@@ -25,23 +25,23 @@ const SHOWN_LEVELS: usize = 24;
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let lod = files::open_lod(&arguments.file)?;
     let metadata = lod.metadata().map_err(|source| Failure::file(&arguments.file, source))?;
-    let report = Report { text: text(arguments, &lod, &metadata), json: json(&lod, &metadata) };
-    Ok(report.of_simplices(lod.n_corners()))
+    Ok(Report { text: text(arguments, &lod, &metadata), json: json(&lod, &metadata) })
 }
 
 fn json(lod: &Lod, metadata: &Metadata) -> Value {
-    let curve: Vec<_> = lod.curve().collect();
-    let coarsest = curve.last();
+    let simplex = lod.simplex();
+    let coarsest = lod.curve().last();
+    let points: Vec<_> = lod.curve().map(|point| figures::curve_point(point, simplex)).collect();
     let attributes: Vec<_> = lod
         .attributes()
         .map(|view| json!({ "name": view.name, "scalar": view.scalar, "components": view.n_components }))
         .collect();
     json!({
-        "triangles_in": metadata.provenance.n_simplices_in,
+        (format!("{simplex}_in")): metadata.provenance.n_simplices_in,
         "vertices_in": metadata.provenance.n_vertices_in,
-        "triangles_stored": lod.n_lifetimes(),
+        (format!("{simplex}_stored")): lod.n_lifetimes(),
         "levels": lod.n_levels(),
-        "coarsest_triangles": coarsest.map(|point| point.triangles),
+        (format!("coarsest_{simplex}")): coarsest.map(|point| point.simplices),
         "max_error": coarsest.map(|point| point.error),
         "bounding_diagonal": lod.bounding_diagonal(),
         "file_bytes": lod.file_bytes(),
@@ -54,10 +54,10 @@ fn json(lod: &Lod, metadata: &Metadata) -> Value {
         "options": metadata.provenance.options,
         "repairs": metadata.provenance.repairs,
         "deviations": deviations(lod),
-        "certified_triangles": metadata.provenance.certified_simplices,
+        (format!("certified_{simplex}")): metadata.provenance.certified_simplices,
         "topology": metadata.provenance.topology,
         "inflections": inflections(lod),
-        "curve": curve,
+        "curve": points,
     })
 }
 
@@ -69,8 +69,9 @@ fn deviations(lod: &Lod) -> Vec<Value> {
 
 fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
     let Provenance { method, bound, n_vertices_in, n_simplices_in, repairs, .. } = &metadata.provenance;
+    let simplex = lod.simplex();
     let bound = match metadata.provenance.certified_simplices {
-        Some(n) => format!("{bound} down to {} triangles, then accumulated", figures::count(n)),
+        Some(n) => format!("{bound} down to {}, then accumulated", figures::simplices(n, simplex)),
         None => bound.clone(),
     };
     let moved =
@@ -80,8 +81,8 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         (
             "mesh",
             format!(
-                "{} triangles, {} vertices",
-                figures::count(*n_simplices_in),
+                "{}, {} vertices",
+                figures::simplices(*n_simplices_in, simplex),
                 figures::count(*n_vertices_in)
             ),
         ),
@@ -94,8 +95,8 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         (
             "stored",
             format!(
-                "{} triangles in {} levels, {}",
-                figures::count(lod.n_lifetimes()),
+                "{} in {} levels, {}",
+                figures::simplices(lod.n_lifetimes(), simplex),
                 figures::count(lod.n_levels()),
                 figures::bytes(lod.file_bytes())
             ),
@@ -107,16 +108,17 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
 /// Levels before which the error leaps.
 fn inflections(lod: &Lod) -> Vec<Value> {
     let curve: Vec<_> = lod.curve().collect();
+    let point = |level: u32| figures::curve_point(curve[level as usize], lod.simplex());
     let levels = lod.inflections(INFLECTION_RATIO);
-    levels.map(|level| json!({ "level": level, "point": curve[level as usize] })).collect()
+    levels.map(|level| json!({ "level": level, "point": point(level) })).collect()
 }
 
 /// The same in words.
 fn inflection_list(lod: &Lod) -> String {
-    let counts: Vec<u32> = lod.curve().map(|point| point.triangles).collect();
+    let counts: Vec<u32> = lod.curve().map(|point| point.simplices).collect();
     let levels = lod.inflections(INFLECTION_RATIO);
-    let words =
-        levels.map(|level| format!("{} ({} triangles)", level, figures::count(counts[level as usize])));
+    let words = levels
+        .map(|level| format!("{level} ({})", figures::simplices(counts[level as usize], lod.simplex())));
     let words: Vec<String> = words.take(SHOWN_LEVELS).collect();
     if words.is_empty() { "none".to_owned() } else { format!("after level {}", words.join(", ")) }
 }
@@ -147,10 +149,11 @@ fn curve(lod: &Lod) -> String {
                 level.to_string(),
                 figures::significant(point.error),
                 figures::percent(point.error, lod.bounding_diagonal()),
-                figures::count(point.triangles),
+                figures::count(point.simplices),
                 figures::count(point.vertices),
             ]
         })
         .collect();
-    figures::table(["level", "error", "% of diagonal", "triangles", "vertices"], &rows)
+    let simplices = lod.simplex().to_string();
+    figures::table(["level", "error", "% of diagonal", &simplices, "vertices"], &rows)
 }

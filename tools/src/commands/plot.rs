@@ -35,17 +35,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     files::check_output(&arguments.output, &inputs)?;
     let lods = inputs.iter().map(|path| files::open_lod(path)).collect::<Result<Vec<_>, _>>()?;
     let curves: Vec<_> = inputs.iter().zip(&lods).map(|(path, lod)| curve_of(path, lod)).collect();
-    let is_volume = |lod: &Lod| lod.n_corners() == 4;
-    let simplices = match (lods.iter().any(is_volume), lods.iter().all(is_volume)) {
-        (false, _) => "triangles",
-        (true, true) => "tetrahedra",
-        (true, false) => "simplices",
-    };
+    let first = lods.first().map(Lod::simplex);
+    let is_uniform = lods.iter().all(|lod| Some(lod.simplex()) == first);
+    let simplices =
+        first.filter(|_| is_uniform).map_or("simplices".to_owned(), |simplex| simplex.to_string());
     let title = arguments.title.clone().unwrap_or_else(|| match &curves[..] {
         [curve] => format!("{}: error against {simplices}", curve.name),
         _ => format!("Error against {simplices}"),
     });
-    let picture = curve::svg(&title, simplices, &curves);
+    let picture = curve::svg(&title, &simplices, &curves);
     nephrite_formats::publish(&arguments.output, |out| out.write_all(picture.as_bytes()))
         .map_err(|source: std::io::Error| Failure::file(&arguments.output, source))?;
     let n_levels: usize = curves.iter().map(|curve| curve.points.len()).sum();
@@ -63,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
 fn curve_of(path: &Path, lod: &Lod) -> Curve {
     let points = lod
         .curve()
-        .map(|point| (f64::from(point.triangles), figures::share(point.error, lod.bounding_diagonal())));
+        .map(|point| (f64::from(point.simplices), figures::share(point.error, lod.bounding_diagonal())));
     Curve {
         name: path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
         points: points.collect(),

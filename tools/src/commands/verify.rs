@@ -45,11 +45,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let seconds = start.elapsed();
     let proven =
         n_proven.map_or(String::new(), |n| format!(", the errors of {} proven anew", figures::count(n)));
-    let report = Report {
+    let simplex = lod.simplex();
+    Ok(Report {
         text: format!(
-            "{}: in order, {} triangles in {} levels{proven}, {}\n",
+            "{}: in order, {} in {} levels{proven}, {}\n",
             arguments.file.display(),
-            figures::count(lod.n_lifetimes()),
+            figures::simplices(lod.n_lifetimes(), simplex),
             figures::count(lod.n_levels()),
             figures::time(seconds)
         ),
@@ -57,12 +58,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             "ok": true,
             "levels": lod.n_levels(),
             "levels_proven": n_proven,
-            "triangles_stored": lod.n_lifetimes(),
+            (format!("{simplex}_stored")): lod.n_lifetimes(),
             "file_bytes": lod.file_bytes(),
             "seconds": seconds.as_secs_f64(),
         }),
-    };
-    Ok(report.of_simplices(lod.n_corners()))
+    })
 }
 
 /// Proves the errors of all certified levels, or of `n_wanted` from the second to the last of them; returns how many.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use nephrite::Lod;
-use nephrite::query::QueryError;
+use nephrite::query::{QueryError, Simplex};
 use nephrite::vertex_cache::{CACHE_LEN, miss_ratio};
 use serde_json::{Value, json};
 
@@ -30,15 +30,15 @@ const N_CUTS: u32 = 12;
 /// What one cut costs.
 struct Measured {
     level: u32,
-    n_triangles: usize,
+    n_simplices: usize,
     n_runs: usize,
     query_ns: f64,
-    extract_triangles_per_second: f64,
-    parallel_triangles_per_second: f64,
-    memcpy_triangles_per_second: f64,
+    extract_per_second: f64,
+    parallel_per_second: f64,
+    memcpy_per_second: f64,
     /// The same two with nothing of theirs in the processor's caches.
-    far_triangles_per_second: f64,
-    far_memcpy_triangles_per_second: f64,
+    far_per_second: f64,
+    far_memcpy_per_second: f64,
     /// Vertices transformed per triangle with a cache of 16, drawn as runs and as an ordered copy.
     miss_ratio: f64,
     ordered_miss_ratio: f64,
@@ -47,44 +47,44 @@ struct Measured {
 impl Measured {
     /// Extraction as a part of memcpy.
     fn ratio(&self) -> f64 {
-        self.extract_triangles_per_second / self.memcpy_triangles_per_second
+        self.extract_per_second / self.memcpy_per_second
     }
 
     /// The same out of cache.
     fn far_ratio(&self) -> f64 {
-        self.far_triangles_per_second / self.far_memcpy_triangles_per_second
+        self.far_per_second / self.far_memcpy_per_second
     }
 
     fn row(&self) -> [String; 12] {
         [
             self.level.to_string(),
-            figures::count(self.n_triangles),
+            figures::count(self.n_simplices),
             self.n_runs.to_string(),
             format!("{:.0} ns", self.query_ns),
-            format!("{:.0}", self.extract_triangles_per_second / 1e6),
-            format!("{:.0}", self.memcpy_triangles_per_second / 1e6),
+            format!("{:.0}", self.extract_per_second / 1e6),
+            format!("{:.0}", self.memcpy_per_second / 1e6),
             format!("{:.2}", self.ratio()),
-            format!("{:.0}", self.far_triangles_per_second / 1e6),
+            format!("{:.0}", self.far_per_second / 1e6),
             format!("{:.2}", self.far_ratio()),
-            format!("{:.0}", self.parallel_triangles_per_second / 1e6),
+            format!("{:.0}", self.parallel_per_second / 1e6),
             format!("{:.2}", self.miss_ratio),
             format!("{:.2}", self.ordered_miss_ratio),
         ]
     }
 
-    fn json(&self) -> Value {
+    fn json(&self, simplex: Simplex) -> Value {
         json!({
             "level": self.level,
-            "triangles": self.n_triangles,
+            (simplex.to_string()): self.n_simplices,
             "runs": self.n_runs,
             "query_ns": self.query_ns,
-            "extract_triangles_per_second": self.extract_triangles_per_second,
-            "memcpy_triangles_per_second": self.memcpy_triangles_per_second,
+            (format!("extract_{simplex}_per_second")): self.extract_per_second,
+            (format!("memcpy_{simplex}_per_second")): self.memcpy_per_second,
             "ratio": self.ratio(),
-            "out_of_cache_triangles_per_second": self.far_triangles_per_second,
-            "out_of_cache_memcpy_triangles_per_second": self.far_memcpy_triangles_per_second,
+            (format!("out_of_cache_{simplex}_per_second")): self.far_per_second,
+            (format!("out_of_cache_memcpy_{simplex}_per_second")): self.far_memcpy_per_second,
             "out_of_cache_ratio": self.far_ratio(),
-            "parallel_extract_triangles_per_second": self.parallel_triangles_per_second,
+            (format!("parallel_extract_{simplex}_per_second")): self.parallel_per_second,
             "miss_ratio": self.miss_ratio,
             "ordered_miss_ratio": self.ordered_miss_ratio,
         })
@@ -101,36 +101,36 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         cuts.push(measure(&lod, level, &mut flush).map_err(|source| Failure::file(&arguments.file, source))?);
     }
     let rows: Vec<_> = cuts.iter().map(Measured::row).collect();
+    let simplices = lod.simplex().to_string();
     let headings = [
         "level",
-        "triangles",
+        &simplices,
         "runs",
         "query",
-        "extract Mtri/s",
-        "memcpy Mtri/s",
+        "extract M/s",
+        "memcpy M/s",
         "ratio",
-        "out of cache Mtri/s",
+        "out of cache M/s",
         "ratio",
-        "all threads Mtri/s",
+        "all threads M/s",
         "misses",
         "ordered",
     ];
     let n_threads = rayon::current_num_threads();
     let legend = format!(
-        "All threads: {n_threads}. Misses: vertices transformed per triangle with a cache of {CACHE_LEN}, drawn as runs and as a copy \
+        "M/s: millions of {simplices} per second. All threads: {n_threads}. Misses: vertices transformed per triangle with a cache of {CACHE_LEN}, drawn as runs and as a copy \
          in cache order.\n"
     );
-    let report = Report {
+    Ok(Report {
         text: figures::table(headings, &rows) + &legend + &opening.text(),
         json: json!({
-            "cuts": cuts.iter().map(Measured::json).collect::<Vec<_>>(),
+            "cuts": cuts.iter().map(|cut| cut.json(lod.simplex())).collect::<Vec<_>>(),
             "cache_len": CACHE_LEN,
             "threads": n_threads,
             "open_seconds": opening.warm_seconds,
             "cold_open_seconds": opening.cold_seconds,
         }),
-    };
-    Ok(report.of_simplices(lod.n_corners()))
+    })
 }
 
 /// Seconds that reading the whole file and checking its head takes.
@@ -159,12 +159,12 @@ impl Opening {
 /// Levels whose triangle counts are evenly apart in the logarithm, each once, finest first.
 fn spread_levels(lod: &Lod) -> Vec<u32> {
     let [finest, coarsest] =
-        [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_triangles().max(1) as f64);
+        [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_simplices().max(1) as f64);
     let mut levels: Vec<u32> = (0..N_CUTS)
         .map(|cut| {
             let wanted = finest * (coarsest / finest).powf(f64::from(cut) / f64::from(N_CUTS - 1));
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two counts")]
-            lod.at_triangles(wanted.round() as usize).level()
+            lod.at_count(wanted.round() as usize).level()
         })
         .collect();
     levels.dedup();
@@ -194,21 +194,21 @@ fn measure(lod: &Lod, level: u32, flush: &mut CacheFlush) -> Result<Measured, Qu
     let parallel_seconds =
         stopwatch::alone(|| _ = black_box(cut.par_extract_into(black_box(&mut extracted))));
     let mut ordered_miss_ratio = 0.0;
-    if lod.n_corners() == 3 {
+    if lod.simplex() == Simplex::Triangle {
         cut.extract_ordered_into(&mut copied)?;
         ordered_miss_ratio = miss_ratio(copied.as_chunks().0.iter().copied(), CACHE_LEN);
     }
-    let n_triangles = cut.n_triangles();
+    let n_simplices = cut.n_simplices();
     Ok(Measured {
         level,
-        n_triangles,
+        n_simplices,
         n_runs: cut.n_runs(),
         query_ns: query_seconds * 1e9,
-        extract_triangles_per_second: n_triangles as f64 / extract_seconds,
-        parallel_triangles_per_second: n_triangles as f64 / parallel_seconds,
-        memcpy_triangles_per_second: n_triangles as f64 / memcpy_seconds,
-        far_triangles_per_second: n_triangles as f64 / far_seconds,
-        far_memcpy_triangles_per_second: n_triangles as f64 / far_memcpy_seconds,
+        extract_per_second: n_simplices as f64 / extract_seconds,
+        parallel_per_second: n_simplices as f64 / parallel_seconds,
+        memcpy_per_second: n_simplices as f64 / memcpy_seconds,
+        far_per_second: n_simplices as f64 / far_seconds,
+        far_memcpy_per_second: n_simplices as f64 / far_memcpy_seconds,
         miss_ratio: cut.miss_ratio(CACHE_LEN),
         ordered_miss_ratio,
     })
