@@ -2,7 +2,7 @@
 //!
 //! The naive proof cuts each surface into pieces and looks for a near triangle of the other surface for every piece, in
 //! both directions, after every removal. Here both directions follow from one continuous map that is carried along and
-//! changed only inside the hole of each removal; ARCHITECTURE.md gives the argument in full.
+//! changed only inside the hole of each removal; docs/proof.md gives the argument in full.
 //!
 //! The map takes the input *onto* the current mesh. A source vertex that is still alive is its own image; any other
 //! one belongs to a triangle and its image is the nearest point there. A source edge runs through triangles in turn
