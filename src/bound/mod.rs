@@ -7,7 +7,23 @@ pub mod removed;
 
 use crate::mesh::{Filling, Hole, Renumbering, Surface, TooMany};
 use certified::{Certified, Transfer};
-use estimate::Estimate;
+use estimate::{Estimate, Kind};
+use serde::{Deserialize, Serialize};
+
+/// What the error of a level means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Bound {
+    /// A proven bound on the two-sided Hausdorff distance to the input.
+    #[default]
+    Certified,
+    /// The paper's estimate e_g3, the larger of the other two.
+    Joint,
+    /// The paper's estimate e_g2, from the removed vertices.
+    Removed,
+    /// The paper's estimate e_g1, accumulated local errors.
+    Accumulated,
+}
 
 /// How many times the limit an error is followed up: what a removal needs is then known well enough for the limits to come, and
 /// farther off it does not matter yet.
@@ -43,6 +59,18 @@ pub enum Change {
 }
 
 impl GlobalError {
+    /// The error at the start, when `surface` is the input but for `rounding`: how far reading it
+    /// moved the worst vertex.
+    pub fn new(bound: Bound, surface: &Surface, rounding: f64) -> Self {
+        let estimate = |kind| Self::Estimate(Estimate::new(kind, surface));
+        match bound {
+            Bound::Certified => Self::Certified(Certified::new(surface, rounding)),
+            Bound::Joint => estimate(Kind::Joint),
+            Bound::Removed => estimate(Kind::Removed),
+            Bound::Accumulated => estimate(Kind::Accumulated),
+        }
+    }
+
     /// What the replacement changes, found without changing it, and its errors; where they are above the limits only the errors,
     /// or lower bounds of them above the limits.
     pub fn change(

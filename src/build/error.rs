@@ -1,5 +1,6 @@
 //! Why a build fails.
 
+use crate::decimate::Stopped;
 use crate::mesh::TooMany;
 
 /// Why a build failed.
@@ -84,7 +85,16 @@ pub enum BuildError {
 }
 
 impl From<TooMany> for BuildError {
-    fn from((what, found, limit): TooMany) -> Self {
+    fn from(TooMany { what, found, limit }: TooMany) -> Self {
         Self::TooLarge { what, found, limit }
+    }
+}
+
+impl From<Stopped> for BuildError {
+    fn from(stopped: Stopped) -> Self {
+        match stopped {
+            Stopped::Interrupted => Self::Interrupted,
+            Stopped::TooLarge(too_many) => too_many.into(),
+        }
     }
 }

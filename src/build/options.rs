@@ -1,6 +1,7 @@
 //! What a build is asked for.
 
 use super::BuildError;
+use crate::bound::Bound;
 use crate::decimate::jade::{JadeOptions, MAX_K, MIN_C1, Placement};
 use crate::decimate::progressive::ProgressiveOptions;
 use serde::{Deserialize, Serialize};
@@ -16,21 +17,6 @@ pub enum Method {
     Fusion,
     /// Edge collapses and vertex splits that change the topology where they must, down to no triangle.
     Progressive,
-}
-
-/// What the error of a level means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Bound {
-    /// A proven bound on the two-sided Hausdorff distance to the input.
-    #[default]
-    Certified,
-    /// The paper's estimate e_g3, the larger of the other two.
-    Joint,
-    /// The paper's estimate e_g2, from the removed vertices.
-    Removed,
-    /// The paper's estimate e_g1, accumulated local errors.
-    Accumulated,
 }
 
 /// How to build.

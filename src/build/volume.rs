@@ -2,6 +2,7 @@
 
 use crate::build::BuildError;
 use crate::decimate::fusion::{self, FusionOptions};
+use crate::decimate::{Decimated, Input};
 use crate::history::History;
 use crate::mesh::{TetrahedronRepairReport, check_counts, repair_tetrahedra};
 use crate::{Observer, Phase, Progress};
@@ -60,9 +61,9 @@ pub fn build_volume(
     let n_in = mesh.tetrahedra.len();
     let tell = |phase, n_triangles, error| {
         let max_error = options.max_error;
-        observer(&Progress { phase, n_triangles, n_triangles_in: n_in, error, max_error }).is_continue()
+        observer(&Progress { phase, n_triangles, n_triangles_in: n_in, error, max_error })
     };
-    if !tell(Phase::Repair, n_in, 0.0) {
+    if tell(Phase::Repair, n_in, 0.0).is_break() {
         return Err(BuildError::Interrupted);
     }
     let (mesh, repairs) = repair_tetrahedra(mesh);
@@ -70,16 +71,16 @@ pub fn build_volume(
         return Err(BuildError::NoTetrahedra { n_tetrahedra: n_in });
     }
     let cos_feature_angle = options.feature_angle_degrees.to_radians().cos();
-    let go_on = |n_alive, error| tell(Phase::Decimate, n_alive, error);
-    let fused = fusion::run(&mesh, &options.fusion, cos_feature_angle, options.max_error, &go_on);
-    let fused = fused.map_err(|fusion::Stopped| BuildError::Interrupted)?;
+    let watch = |n_alive, error| tell(Phase::Decimate, n_alive, error);
+    let input = Input { mesh, max_error: options.max_error, cos_feature_angle };
+    let Decimated { mesh, history, report } = fusion::run(input, &options.fusion, &watch)?;
     Ok(VolumeBuild {
-        mesh: fused.mesh,
-        history: fused.history,
+        mesh,
+        history,
         repairs,
-        n_fusions: fused.n_fusions,
-        n_tetrahedron_fusions: fused.n_tetrahedron_fusions,
-        n_left_by_tetrahedra: fused.n_left_by_tetrahedra,
+        n_fusions: report.n_fusions,
+        n_tetrahedron_fusions: report.n_tetrahedron_fusions,
+        n_left_by_tetrahedra: report.n_left_by_tetrahedra,
     })
 }
 

@@ -1,7 +1,8 @@
 //! Vectors and exact distances between points, segments and triangles, in `f64`.
 
+pub mod bounds;
 pub mod distance;
-pub mod floor;
+pub mod height_triangle;
 pub mod morton;
 pub mod prepared;
 pub mod projection;

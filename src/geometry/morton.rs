@@ -2,6 +2,8 @@
 //!
 //! Reference: G. M. Morton: "A computer oriented geodetic data base and a new technique in file sequencing" (IBM, 1966).
 
+use super::bounds::Bounds;
+
 /// A grid of 2^21 cells a side around a mesh, whose cells are numbered along a Morton curve.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
@@ -14,9 +16,9 @@ impl Grid {
 
     /// The grid around `positions`.
     pub fn around(positions: &[[f32; 3]]) -> Self {
-        let (min, max) = bounds(positions.iter().copied());
-        let side = (0..3).map(|i| f64::from(max[i]) - f64::from(min[i])).fold(0.0, f64::max);
-        Self { min: min.map(f64::from), cells_per_unit: if side > 0.0 { Self::CELLS / side } else { 0.0 } }
+        let bounds = Bounds::around_positions(positions);
+        let side = bounds.extent().into_iter().fold(0.0, f64::max);
+        Self { min: bounds.low, cells_per_unit: if side > 0.0 { Self::CELLS / side } else { 0.0 } }
     }
 
     /// Number of the cell that holds a position.
@@ -58,15 +60,6 @@ fn spread(x: u64) -> u64 {
     let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
     let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
     (x | x << 2) & 0x1249_2492_4924_9249
-}
-
-/// Least and largest coordinates; zero for no positions.
-pub fn bounds(positions: impl IntoIterator<Item = [f32; 3]>) -> ([f32; 3], [f32; 3]) {
-    let mut positions = positions.into_iter();
-    let Some(first) = positions.next() else { return ([0.0; 3], [0.0; 3]) };
-    positions.fold((first, first), |(min, max), position| {
-        (std::array::from_fn(|i| min[i].min(position[i])), std::array::from_fn(|i| max[i].max(position[i])))
-    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The samples of one tile, compared with a triangle all at once.
 
-use super::bvh::Bounds;
 use super::search::Found;
+use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::{PreparedTriangle, larger, smaller};
 use crate::geometry::vector::{Vector, midpoint};
@@ -70,7 +70,7 @@ impl Batch {
     /// Replaces the content by a tile, given by its corners, and the points in it, of which those that find no room
     /// are left in the iterator.
     pub(super) fn fill(&mut self, tile: &[Vector], points: &mut impl Iterator<Item = Vector>) {
-        self.region = Bounds::around(tile);
+        self.region = Bounds::around(tile.iter().copied());
         self.bounds = [Found::NOTHING; 4];
         self.nearest = [Found::NOTHING; N_CORNERS];
         self.reach_sq = f64::INFINITY;

@@ -8,6 +8,7 @@
 
 use rayon::prelude::*;
 
+use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::larger;
 use crate::geometry::vector::{self, Vector};
@@ -48,49 +49,11 @@ pub(super) enum Child {
     },
 }
 
-/// A box with sides along the axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
-    /// Lower corner.
-    pub(super) low: Vector,
-    /// Upper corner.
-    pub(super) high: Vector,
-}
-
 /// A triangle on its way into a leaf.
 #[derive(Clone, Copy)]
 struct Primitive {
     bounds: Bounds,
     id: u32,
-}
-
-impl Bounds {
-    /// The box that holds nothing.
-    pub(super) const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
-
-    /// Smallest box around points.
-    pub(super) fn around(points: &[Vector]) -> Self {
-        points.iter().fold(Self::EMPTY, |bounds, &p| bounds.union(&Self { low: p, high: p }))
-    }
-
-    /// Smallest box around two.
-    #[inline(always)]
-    pub(super) fn union(&self, other: &Self) -> Self {
-        Self { low: vector::min(self.low, other.low), high: vector::max(self.high, other.high) }
-    }
-
-    /// Half the surface area; 0 for the empty box.
-    #[inline(always)]
-    fn half_area(&self) -> f64 {
-        let [x, y, z] = vector::max(vector::sub(self.high, self.low), [0.0; 3]);
-        x * y + y * z + z * x
-    }
-
-    /// Twice the centre.
-    #[inline(always)]
-    fn centre_twice(&self) -> Vector {
-        vector::add(self.low, self.high)
-    }
 }
 
 impl Node {
@@ -165,7 +128,7 @@ pub(super) fn build(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
     let mut primitives: Vec<Primitive> = triangles
         .par_iter()
         .zip(0..u32::MAX)
-        .map(|(triangle, id)| Primitive { bounds: Bounds::around(triangle), id })
+        .map(|(triangle, id)| Primitive { bounds: Bounds::around(*triangle), id })
         .collect();
     let mut nodes = Vec::new();
     let mut pending: Vec<(u32, &mut [Primitive])> = vec![(0, &mut primitives)];
@@ -230,7 +193,7 @@ fn split(primitives: &mut [Primitive]) -> (&mut [Primitive], &mut [Primitive]) {
         return (primitives, &mut []);
     }
     let centres = primitives.iter().fold(Bounds::EMPTY, |bounds, primitive| {
-        let centre = primitive.bounds.centre_twice();
+        let centre = primitive.bounds.center_twice();
         bounds.union(&Bounds { low: centre, high: centre })
     });
     let extent = vector::sub(centres.high, centres.low);
@@ -321,7 +284,7 @@ pub(super) fn check_tree(nodes: &[Node], triangles: &[Triangle]) {
                 Child::Leaf { first, n_triangles } => {
                     let range = first as usize..(first + n_triangles) as usize;
                     n_seen[range.clone()].iter_mut().for_each(|count| *count += 1);
-                    Bounds::around(&triangles[range].concat())
+                    Bounds::around(triangles[range].concat())
                 }
             };
             assert_eq!(bounds, below);

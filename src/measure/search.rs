@@ -8,7 +8,8 @@
 use multiversion::multiversion;
 
 use super::batch::Batch;
-use super::bvh::{Bounds, Child, LANES, Node};
+use super::bvh::{Child, LANES, Node};
+use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::{PreparedTriangle, larger};
 use crate::geometry::vector::Vector;

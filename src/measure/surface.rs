@@ -7,13 +7,14 @@
 
 use rayon::prelude::*;
 
-use super::bvh::{self, Bounds};
+use super::bvh;
 use super::error::{MeasureError, Side};
 use super::search::Tree;
 use crate::TriangleMesh;
+use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{self, Vector};
-use crate::mesh::check_counts;
+use crate::mesh::{TooMany, check_counts};
 
 /// Coordinates above this are refused: sixth powers of lengths would come near the end of `f64`.
 const MAX_COORDINATE: f64 = 1e40;
@@ -52,7 +53,7 @@ impl Frame {
         let bounds = reference
             .triangles
             .par_iter()
-            .map(|corners| Bounds::around(&corners.map(|v| vector::widen(reference.positions[v as usize]))))
+            .map(|corners| Bounds::around(corners.map(|v| vector::widen(reference.positions[v as usize]))))
             .reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
         Ok(Self {
             origin: reference.origin,
@@ -87,7 +88,7 @@ impl Surface {
         let unordered: Vec<Triangle> = mesh.triangles.par_iter().map(|corners| corners.map(place)).collect();
         let bounds = unordered
             .par_iter()
-            .map(|triangle| Bounds::around(triangle))
+            .map(|triangle| Bounds::around(*triangle))
             .reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
         let magnitude = [offset, bounds.low, bounds.high]
             .concat()
@@ -119,7 +120,7 @@ fn check(mesh: &TriangleMesh, side: Side) -> Result<(), MeasureError> {
         return Err(MeasureError::NoTriangles { side, n_vertices });
     }
     check_counts(n_vertices, mesh.triangles.len())
-        .map_err(|(what, found, limit)| MeasureError::TooLarge { side, what, found, limit })?;
+        .map_err(|TooMany { what, found, limit }| MeasureError::TooLarge { side, what, found, limit })?;
     if !mesh.origin.iter().all(|coordinate| coordinate.is_finite()) {
         return Err(MeasureError::OriginNotFinite { side, origin: mesh.origin });
     }

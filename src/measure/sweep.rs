@@ -9,10 +9,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::batch::Batch;
-use super::bvh::Bounds;
 use super::prove::{Cutter, Parts};
 use super::samples::{Element, Samples, Tile};
 use super::search::{Front, Stack, Tree};
+use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::{Segment, Triangle};
 use crate::geometry::vector::{self, Vector};
 
@@ -155,7 +155,9 @@ fn sweep<E: Element, T: Send>(
         .map_init(Walk::new, |walk, chunk| {
             let start = chunk * TILES_PER_CHUNK;
             let tiles = start..(start + TILES_PER_CHUNK).min(n_tiles);
-            let corners = samples.tiles(tiles.clone()).map(|tile| Bounds::around(tile.corners.corners()));
+            let corners = samples
+                .tiles(tiles.clone())
+                .map(|tile| Bounds::around(tile.corners.corners().iter().copied()));
             walk.enter(&corners.fold(Bounds::EMPTY, |all, tile| all.union(&tile)), target);
             visit(walk, tiles)
         })

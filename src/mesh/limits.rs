@@ -14,8 +14,16 @@ pub const MAX_SIMPLICES: usize = (u32::MAX / 8) as usize;
 /// Most entries of a pool whose places are `u32`; the last number stands for no place.
 pub const MAX_PLACES: usize = (u32::MAX - 1) as usize;
 
-/// A count beyond its limit: what is counted, in the plural, how many there are, and the limit.
-pub type TooMany = (&'static str, usize, usize);
+/// A count beyond its limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooMany {
+    /// What is counted, in the plural.
+    pub what: &'static str,
+    /// How many there are.
+    pub found: usize,
+    /// How many there may be.
+    pub limit: usize,
+}
 
 /// Compares the counts of a mesh with the limits.
 ///
@@ -23,8 +31,8 @@ pub type TooMany = (&'static str, usize, usize);
 ///
 /// The first count that is too large.
 pub fn check_counts(n_vertices: usize, n_simplices: usize) -> Result<(), TooMany> {
-    let counts = [("vertices", n_vertices, MAX_VERTICES), ("simplices", n_simplices, MAX_SIMPLICES)];
-    counts.into_iter().find(|(_, found, limit)| found > limit).map_or(Ok(()), Err)
+    check_count("vertices", n_vertices, MAX_VERTICES)?;
+    check_count("simplices", n_simplices, MAX_SIMPLICES)
 }
 
 /// Compares a pool's entries, and those about to be added, with their limit.
@@ -33,19 +41,29 @@ pub fn check_counts(n_vertices: usize, n_simplices: usize) -> Result<(), TooMany
 ///
 /// `what` it holds, and how many there would be.
 pub fn check_places(what: &'static str, n_entries: usize, n_more: usize) -> Result<(), TooMany> {
-    let found = n_entries.saturating_add(n_more);
-    if found > MAX_PLACES { Err((what, found, MAX_PLACES)) } else { Ok(()) }
+    check_count(what, n_entries.saturating_add(n_more), MAX_PLACES)
+}
+
+fn check_count(what: &'static str, found: usize, limit: usize) -> Result<(), TooMany> {
+    if found > limit { Err(TooMany { what, found, limit }) } else { Ok(()) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn too_many(what: &'static str, found: usize, limit: usize) -> Result<(), TooMany> {
+        Err(TooMany { what, found, limit })
+    }
+
     #[test]
     fn counts_are_accepted_up_to_their_limits() {
         assert_eq!(check_counts(MAX_VERTICES, MAX_SIMPLICES), Ok(()));
-        assert_eq!(check_counts(MAX_VERTICES + 1, 0), Err(("vertices", MAX_VERTICES + 1, MAX_VERTICES)));
-        assert_eq!(check_counts(3, MAX_SIMPLICES + 1), Err(("simplices", MAX_SIMPLICES + 1, MAX_SIMPLICES)));
+        assert_eq!(check_counts(MAX_VERTICES + 1, 0), too_many("vertices", MAX_VERTICES + 1, MAX_VERTICES));
+        assert_eq!(
+            check_counts(3, MAX_SIMPLICES + 1),
+            too_many("simplices", MAX_SIMPLICES + 1, MAX_SIMPLICES)
+        );
     }
 
     #[test]
@@ -53,8 +71,8 @@ mod tests {
         assert_eq!(check_places("portions", MAX_PLACES - 5, 5), Ok(()));
         assert_eq!(
             check_places("portions", MAX_PLACES - 5, 6),
-            Err(("portions", MAX_PLACES + 1, MAX_PLACES))
+            too_many("portions", MAX_PLACES + 1, MAX_PLACES)
         );
-        assert_eq!(check_places("portions", 1, usize::MAX), Err(("portions", usize::MAX, MAX_PLACES)));
+        assert_eq!(check_places("portions", 1, usize::MAX), too_many("portions", usize::MAX, MAX_PLACES));
     }
 }

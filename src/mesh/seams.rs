@@ -12,6 +12,19 @@ pub struct Seams {
 }
 
 impl Seams {
+    /// Parts `triangles` into the points at their corners and the seams. `points` has the point of
+    /// each vertex, and vertices look the same where their entries in `looks` agree; without
+    /// `points` a vertex is its own point.
+    pub fn part(
+        triangles: Vec<[u32; 3]>,
+        points: Option<Vec<u32>>,
+        looks: Option<Vec<u32>>,
+    ) -> (Vec<[u32; 3]>, Option<Self>) {
+        let Some((points, looks)) = points.zip(looks) else { return (triangles, None) };
+        let over_points = triangles.iter().map(|t| t.map(|v| points[v as usize])).collect();
+        (over_points, Some(Self::new(triangles, looks)))
+    }
+
     /// Seams of a mesh whose slot `t` has the vertices `triangles[t]`, and whose vertices look the same where their entries
     /// in `looks` agree.
     pub fn new(triangles: Vec<[u32; 3]>, looks: Vec<u32>) -> Self {

@@ -7,7 +7,8 @@ use super::compact::CompactSlots;
 use super::pieces::Pieces;
 use super::{StoreReport, Vertices};
 use crate::History;
-use crate::geometry::morton::bounds;
+use crate::geometry::bounds::Bounds;
+use crate::geometry::vector::widen;
 use crate::history::Levels;
 use crate::tree::{Layout, Run};
 use nephrite_formats::neph::{self, CHUNK_BYTES, Header, MAGIC, Placement, SectionKind, VERSION};
@@ -198,7 +199,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
 
     /// The header without its checksums.
     fn header(&self, placement: &Placement) -> Header {
-        let (bounds_min, bounds_max) = bounds(self.positions());
+        let (bounds_min, bounds_max) = Bounds::around(self.positions().map(widen)).to_f32();
         let n_sections = u32::try_from(placement.records.len()).unwrap_or(u32::MAX);
         Header {
             magic: MAGIC,

@@ -1,14 +1,14 @@
 //! Which triangle of a filling a point lies over.
 
-use crate::geometry::floor::Floor;
+use crate::geometry::height_triangle::HeightTriangle;
 use crate::geometry::vector::{Vector, cross, dot, sub};
 use crate::mesh::{Filling, Hole};
 
 /// The triangles of a filling, and the half-spaces beside its inner edges, upright on the average plane of its hole.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Location {
-    /// The triangles; nothing for those too thin to measure heights over.
-    floors: Vec<Option<Floor>>,
+    /// The triangles; `None` for those too thin to measure heights over.
+    triangles: Vec<Option<HeightTriangle>>,
     half_spaces: Vec<HalfSpace>,
     /// Where the half-spaces of each triangle start, and where all end.
     starts: Vec<usize>,
@@ -28,9 +28,10 @@ impl Location {
         self.half_spaces.clear();
         self.starts.clear();
         self.starts.push(0);
-        self.floors.clear();
+        self.triangles.clear();
         for (at, &[a, b, c]) in filling.triangles.iter().enumerate() {
-            self.floors.push(Some(Floor::new(filling.triangle(hole, at))).filter(Floor::is_sound));
+            let triangle = HeightTriangle::new(filling.triangle(hole, at));
+            self.triangles.push(Some(triangle).filter(HeightTriangle::is_sound));
             for [i, j] in [[a, b], [b, c], [c, a]].map(|edge| edge.map(usize::from)) {
                 if !hole.is_ring_edge(i, j) {
                     let (from, to) = (hole.points[i], hole.points[j]);
@@ -45,7 +46,7 @@ impl Location {
     /// Squared distance of `p` to a triangle that is below it in the direction of the triangle's own normal; nothing where it is not.
     #[inline]
     pub(super) fn height_sq(&self, triangle: usize, p: Vector) -> Option<f64> {
-        self.floors[triangle].as_ref()?.height_sq(p)
+        self.triangles[triangle].as_ref()?.height_sq(p)
     }
 
     /// A triangle whose inner edges all have `p` on their left: `guess` where that is one, or else the first.

@@ -6,8 +6,9 @@
 use super::attempt::Accepted;
 use super::prey::Prey;
 use super::queue::Queue;
-use super::run::{GoOn, Stopped, comes_later, observe};
+use super::run::{comes_later, observe};
 use super::state::State;
+use crate::decimate::{Stopped, Watch};
 use rayon::prelude::*;
 
 /// What is known of a vertex.
@@ -27,7 +28,7 @@ struct Candidate {
 const TRIED_EDGES: u8 = 4;
 
 /// Fuses edges until none can be fused.
-pub(super) fn fuse_edges(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopped> {
+pub(super) fn fuse_edges(state: &mut State, watch: Watch<'_>) -> Result<(), Stopped> {
     let mut candidates = vec![Candidate::default(); state.mesh.n_vertices()];
     let mut edges = Edges::default();
     let mut queue = find_all(state, &mut candidates, |_, _| true);
@@ -43,7 +44,7 @@ pub(super) fn fuse_edges(state: &mut State, go_on: GoOn<'_>) -> Result<(), Stopp
                     if let Some(cost) = edges.find(state, new, &mut candidates[new as usize]) {
                         queue.push(new, cost);
                     }
-                    observe(state, go_on)?;
+                    observe(state, watch)?;
                 }
             }
         }

@@ -33,4 +33,4 @@ mod state;
 
 pub(crate) use fields::barycentric;
 pub use options::FusionOptions;
-pub(crate) use run::{Stopped, run};
+pub(crate) use run::run;

@@ -5,39 +5,33 @@ use super::edges::fuse_edges;
 use super::options::FusionOptions;
 use super::prey::Prey;
 use super::queue::Queue;
-use super::state::{Fused, State};
+use super::state::{FusionReport, State};
+use crate::decimate::{Decimated, Input, Stopped, Watch};
 use nephrite_formats::TetrahedronMesh;
 use rayon::prelude::*;
-
-/// The observer asked to stop.
-pub(crate) struct Stopped;
 
 /// Fusions between two calls of the observer.
 const OBSERVED: usize = 256;
 
-/// Told the tetrahedra left and the error of the boundary; says whether to go on.
-pub(crate) type GoOn<'a> = &'a dyn Fn(usize, f64) -> bool;
-
-/// Fuses the tetrahedra of a mesh as far as it goes, or until the error of the boundary would exceed `max_error`.
+/// Fuses the tetrahedra of a mesh as far as it goes, or until the error of the boundary would exceed
+/// the largest one asked for.
 ///
 /// # Errors
 ///
-/// [`Stopped`] when `go_on` says so.
+/// [`Stopped`] when `watch` breaks.
 pub(crate) fn run(
-    mesh: &TetrahedronMesh,
+    input: Input<TetrahedronMesh>,
     options: &FusionOptions,
-    cos_feature_angle: f64,
-    max_error: Option<f64>,
-    go_on: GoOn<'_>,
-) -> Result<Fused, Stopped> {
-    let mut state = State::new(mesh, options, cos_feature_angle, max_error);
+    watch: Watch<'_>,
+) -> Result<Decimated<TetrahedronMesh, 4, FusionReport>, Stopped> {
+    let mut state = State::new(input, options);
     let max_error = state.max_error;
     state.max_error = max_error.min(state.fine_error);
-    fuse_tetrahedra(&mut state, options.tetrahedron_share, go_on)?;
+    fuse_tetrahedra(&mut state, options.tetrahedron_share, watch)?;
     state.max_error = max_error;
     let by_tetrahedra = [state.n_fusions, state.mesh.n_alive()];
-    fuse_edges(&mut state, go_on)?;
-    Ok(state.finish(mesh, by_tetrahedra))
+    fuse_edges(&mut state, watch)?;
+    Ok(state.finish(by_tetrahedra))
 }
 
 /// What is known of a tetrahedron, by slot.
@@ -50,7 +44,7 @@ struct Candidate {
 }
 
 /// Fuses tetrahedra that cost no more than the cheapest `share` of them did at the start.
-fn fuse_tetrahedra(state: &mut State, share: f64, go_on: GoOn<'_>) -> Result<(), Stopped> {
+fn fuse_tetrahedra(state: &mut State, share: f64, watch: Watch<'_>) -> Result<(), Stopped> {
     #[expect(clippy::cast_possible_truncation, reason = "slots are counted in u32")]
     let n_slots = state.mesh.n_slots() as u32;
     let mut candidates = vec![Candidate::default(); n_slots as usize];
@@ -63,7 +57,7 @@ fn fuse_tetrahedra(state: &mut State, share: f64, go_on: GoOn<'_>) -> Result<(),
     let costs: Vec<(u32, f64)> = (0..n_slots).into_par_iter().filter_map(cost).collect();
     let limit = quantile(&costs, share);
     let mut queue = Queue::new(costs.into_iter());
-    let mut luck = Luck::default();
+    let mut success_rate = SuccessRate::default();
     while !queue.is_first(u32::MAX, limit)
         && let Some(slot) = queue.pop()
     {
@@ -78,7 +72,7 @@ fn fuse_tetrahedra(state: &mut State, share: f64, go_on: GoOn<'_>) -> Result<(),
             }
         }
         let accepted = state.try_fusion(&prey);
-        if luck.has_left(accepted.is_some()) {
+        if success_rate.is_low_after(accepted.is_some()) {
             return Ok(());
         }
         let Some(accepted) = accepted else { continue };
@@ -87,7 +81,7 @@ fn fuse_tetrahedra(state: &mut State, share: f64, go_on: GoOn<'_>) -> Result<(),
             continue;
         }
         state.fuse(&prey, &accepted, |slot| candidates[slot as usize].is_stale = true);
-        observe(state, go_on)?;
+        observe(state, watch)?;
     }
     Ok(())
 }
@@ -106,20 +100,22 @@ fn quantile(costs: &[(u32, f64)], share: f64) -> f64 {
     }
 }
 
-/// How often tetrahedra could be fused lately. Where nearly none can, edges take away more for the same time.
+/// How often tetrahedra could be fused lately. If nearly none can, edges take away more for the same
+/// time.
 #[derive(Default)]
-struct Luck {
+struct SuccessRate {
     n_tried: u32,
     n_held: u32,
 }
 
-impl Luck {
+impl SuccessRate {
     /// Tries in one count.
     const WINDOW: u32 = 4096;
-    /// Fewer that hold than this part of them are not worth it.
+    /// It is not worth going on if fewer than one of so many holds.
     const LEAST_PART: u32 = 256;
 
-    fn has_left(&mut self, holds: bool) -> bool {
+    /// Counts one more try. True at the end of a window in which too few held.
+    fn is_low_after(&mut self, holds: bool) -> bool {
         self.n_tried += 1;
         self.n_held += u32::from(holds);
         if self.n_tried < Self::WINDOW {
@@ -141,9 +137,12 @@ pub(super) fn comes_later(known: &mut f32, cost: f64) -> bool {
 }
 
 /// Told now and then how far it has come.
-pub(super) fn observe(state: &State, go_on: GoOn<'_>) -> Result<(), Stopped> {
+pub(super) fn observe(state: &State, watch: Watch<'_>) -> Result<(), Stopped> {
     let is_time = state.n_fusions.is_multiple_of(OBSERVED);
-    if is_time && !go_on(state.mesh.n_alive(), state.recorder.error()) { Err(Stopped) } else { Ok(()) }
+    if is_time && watch(state.mesh.n_alive(), state.recorder.error()).is_break() {
+        return Err(Stopped::Interrupted);
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -151,6 +150,7 @@ mod tests {
     use super::*;
     use crate::generate::ball_volume;
     use crate::volume::boundary;
+    use std::ops::ControlFlow;
 
     /// The boundary of a ball and one vertex in its middle, to which every tetrahedron goes.
     fn cone(cells: u32) -> TetrahedronMesh {
@@ -165,15 +165,16 @@ mod tests {
         mesh
     }
 
-    fn fused(mesh: &TetrahedronMesh) -> Fused {
-        run(mesh, &FusionOptions::default(), 0.5, None, &|_, _| true).ok().unwrap()
+    fn fused(mesh: TetrahedronMesh) -> FusionReport {
+        let input = Input { mesh, max_error: None, cos_feature_angle: 0.5 };
+        run(input, &FusionOptions::default(), &|_, _| ControlFlow::Continue(())).unwrap().report
     }
 
     #[test]
     fn work_at_one_vertex_follows_its_tetrahedra() {
         let [few, many] = [20, 40].map(cone);
         assert_eq!([few.tetrahedra.len(), many.tetrahedra.len()], [4800, 19_200]);
-        let [few, many] = [few, many].map(|mesh| fused(&mesh));
+        let [few, many] = [few, many].map(fused);
         assert!(few.n_fusions > 400 && many.n_fusions > 1600, "{} and {}", few.n_fusions, many.n_fusions);
         let [few, many] = [few.n_read, many.n_read];
         assert!(

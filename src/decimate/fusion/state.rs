@@ -8,8 +8,10 @@ use super::neighbourhood::Neighbourhood;
 use super::options::FusionOptions;
 use super::patch::Patch;
 use super::prey::Prey;
-use crate::geometry::vector::{Vector, length, max, midpoint, min, sub};
-use crate::history::{Deviation, History, Recorder};
+use crate::decimate::{Decimated, Input};
+use crate::geometry::bounds::Bounds;
+use crate::geometry::vector::{Vector, max};
+use crate::history::{Deviation, Recorder};
 use crate::mesh::Tetrahedra;
 use nephrite_formats::TetrahedronMesh;
 
@@ -44,13 +46,13 @@ pub(super) struct State {
     pub fine_error: f64,
     quadric_distances: Vec<f64>,
     field_deviations: Vec<Vec<f64>>,
+    /// The input.
+    input: TetrahedronMesh,
 }
 
-/// What a run leaves.
-pub(crate) struct Fused {
-    /// The vertices of the input and all fusion points, with their fields.
-    pub mesh: TetrahedronMesh,
-    pub history: History<4>,
+/// What a fusion tells beside the history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FusionReport {
     /// Fusions made.
     pub n_fusions: usize,
     /// Those of tetrahedra among them, which come first.
@@ -63,18 +65,15 @@ pub(crate) struct Fused {
 }
 
 impl State {
-    pub(super) fn new(
-        mesh: &TetrahedronMesh,
-        options: &FusionOptions,
-        cos_feature_angle: f64,
-        max_error: Option<f64>,
-    ) -> Self {
-        let tetrahedra = Tetrahedra::new(mesh);
-        let (low, high) = bounds(mesh);
-        let field_range = options.field_weight * length(sub(high, low));
+    /// The state at step 0. O(n).
+    pub(super) fn new(input: Input<TetrahedronMesh>, options: &FusionOptions) -> Self {
+        let Input { mesh, max_error, cos_feature_angle } = input;
+        let tetrahedra = Tetrahedra::new(&mesh);
+        let bounds = Bounds::around_positions(&mesh.positions);
+        let field_range = options.field_weight * bounds.diagonal();
         let fields = Fields::new(&mesh.attributes, mesh.positions.len(), field_range);
         let (n_scaled, scaled) = fields.scaled();
-        let metric = Metric::new(&tetrahedra, midpoint(low, high), n_scaled, &scaled);
+        let metric = Metric::new(&tetrahedra, bounds.center(), n_scaled, &scaled);
         let recorder = Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding);
         let six_volumes: f64 = mesh.tetrahedra.iter().map(|&t| mesh.six_volumes(t)).sum();
         let six_volumes_to_lose = options.volume_loss * six_volumes.abs();
@@ -85,17 +84,19 @@ impl State {
             errors: vec![mesh.rounding; mesh.positions.len()],
             quadric_distances: vec![0.0],
             field_deviations: vec![vec![0.0]; fields.len()],
-            slack: SLACK * max(low.map(f64::abs), high.map(f64::abs)).into_iter().fold(0.0, f64::max),
+            slack: SLACK
+                * max(bounds.low.map(f64::abs), bounds.high.map(f64::abs)).into_iter().fold(0.0, f64::max),
             six_volumes_to_lose,
             six_volumes_left: six_volumes_to_lose,
             max_error: max_error.unwrap_or(f64::INFINITY),
-            fine_error: FINE_ERROR * length(sub(high, low)),
+            fine_error: FINE_ERROR * bounds.diagonal(),
             mesh: tetrahedra,
             metric,
             fields,
             neighbourhood: Neighbourhood::default(),
             patch: Patch::default(),
             n_fusions: 0,
+            input: mesh,
         }
     }
 
@@ -154,34 +155,26 @@ impl State {
         }
     }
 
-    /// The mesh and its history; `by_tetrahedra` are the fusions of tetrahedra and the tetrahedra they left.
-    pub(super) fn finish(self, input: &TetrahedronMesh, by_tetrahedra: [usize; 2]) -> Fused {
+    /// The mesh and its history; `by_tetrahedra` are the fusions of tetrahedra and the tetrahedra
+    /// they left.
+    pub(super) fn finish(self, by_tetrahedra: [usize; 2]) -> Decimated<TetrahedronMesh, 4, FusionReport> {
         let mut history = self.recorder.finish(&self.mesh.iter().collect::<Vec<_>>());
         let names = std::iter::once("planar quadric").chain(self.fields.names()).map(str::to_owned);
         let values = std::iter::once(self.quadric_distances).chain(self.field_deviations);
         history.deviations = names.zip(values).map(|(name, values)| Deviation { name, values }).collect();
         let mesh = TetrahedronMesh {
-            origin: input.origin,
             positions: self.mesh.positions().to_vec(),
-            tetrahedra: input.tetrahedra.clone(),
             attributes: self.fields.into_attributes(),
-            rounding: input.rounding,
+            ..self.input
         };
         let [n_tetrahedron_fusions, n_left_by_tetrahedra] = by_tetrahedra;
-        Fused {
-            mesh,
-            history,
+        let report = FusionReport {
             n_fusions: self.n_fusions,
             n_tetrahedron_fusions,
             n_left_by_tetrahedra,
             #[cfg(test)]
             n_read: self.mesh.n_read(),
-        }
+        };
+        Decimated { mesh, history, report }
     }
-}
-
-fn bounds(mesh: &TetrahedronMesh) -> (Vector, Vector) {
-    let start = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let points = mesh.positions.iter().map(|p| p.map(f64::from));
-    points.fold(start, |(low, high), p| (min(low, p), max(high, p)))
 }

@@ -1,8 +1,8 @@
 //! Removals that go together: planned in parallel on the same mesh, and carried out at once.
 
-use super::candidate::Verdict;
-use super::decimation::Decimation;
+use super::candidate::Refusal;
 use super::removal::{Plan, plan};
+use super::state::State;
 use crate::bound::Limits;
 use crate::mesh::TooMany;
 use rayon::prelude::*;
@@ -10,8 +10,8 @@ use rayon::prelude::*;
 /// Most candidates that one thread takes at a time.
 const CHUNK: usize = 16;
 
-/// Chunks for each thread, where there are enough candidates: the last ones of a history stand for thousands of input vertices each,
-/// and whoever is done with its own takes from the others.
+/// Chunks for each thread, if there are enough candidates: the last ones of a history stand for
+/// thousands of input vertices each, and small chunks let idle threads steal work.
 const CHUNKS_PER_THREAD: usize = 16;
 
 /// What was found of some candidates.
@@ -20,24 +20,25 @@ pub struct Judged {
     /// Of those within the limits.
     pub plans: Vec<Box<Plan>>,
     /// Of the others.
-    pub verdicts: Vec<(u32, Verdict)>,
+    pub refusals: Vec<(u32, Refusal)>,
 }
 
 /// Plans the removal of every vertex of the batch under `limits`, in parallel. In order, a few together.
-pub fn plan_all(decimation: &Decimation, limits: Limits, batch: &[u32]) -> Vec<Judged> {
-    let situation = decimation.situation();
+pub fn plan_all(state: &State, limits: Limits, batch: &[u32]) -> Vec<Judged> {
+    let situation = state.situation();
     let plan_chunk = |chunk: &[u32]| {
-        let mut scratch = decimation.workers.scratch();
-        let mut judged = Judged { plans: vec![], verdicts: Vec::with_capacity(chunk.len()) };
+        let mut scratch = state.workers.scratch();
+        let mut judged = Judged { plans: vec![], refusals: Vec::with_capacity(chunk.len()) };
         for &v in chunk {
             match plan(situation, v, limits, &mut scratch) {
                 Ok(plan) => judged.plans.push(plan),
-                Err(verdict) => judged.verdicts.push((v, verdict)),
+                Err(refusal) => judged.refusals.push((v, refusal)),
             }
         }
         judged
     };
-    // A job each: rayon would tie several together, and the one who takes the last of these would keep the others waiting.
+    // A job each: rayon would tie several together, and the thread that takes the last of these
+    // would keep the others waiting.
     batch.par_chunks(chunk_len(batch.len())).with_max_len(1).map(plan_chunk).collect()
 }
 
@@ -51,25 +52,25 @@ fn chunk_len(n: usize) -> usize {
 /// # Errors
 ///
 /// When the errors have no room for them; nothing has changed then.
-pub fn carry_out(decimation: &mut Decimation, plans: &[Box<Plan>]) -> Result<(), TooMany> {
-    let Decimation { surface, seams, error, recorder, .. } = decimation;
+pub fn carry_out(state: &mut State, plans: &[Box<Plan>]) -> Result<(), TooMany> {
+    let State { surface, names, error, recorder, .. } = state;
     let changes = plans.iter().map(|plan| plan.change());
     error.check_room(changes.clone())?;
     let change_surface = || plans.iter().for_each(|plan| surface.fill(&plan.hole, &plan.filling));
     let record = || {
         plans.iter().for_each(|plan| plan.record(recorder));
-        if let Some(seams) = seams {
-            plans.iter().for_each(|plan| plan.set_seams(seams));
-        }
+        plans.iter().for_each(|plan| plan.name_filling(names));
     };
     rayon::join(|| error.apply_all(changes), || rayon::join(change_surface, record));
     rayon::join(|| error.compact(), || surface.compact());
     Ok(())
 }
 
-/// What plans of one batch change outside their own stars: a later one that wants to change the same has been overtaken.
+/// What plans of one batch change outside their own stars. A later plan that changes the same has
+/// been overtaken.
 ///
-/// New edges and triangles have few bits for many of them, so that now and then one counts as claimed that is not.
+/// New edges and triangles have few bits for many of them, so that now and then one counts as
+/// claimed that is not.
 #[derive(Clone, Debug, Default)]
 pub struct Claims {
     /// A bit for each source edge.
@@ -86,8 +87,9 @@ impl Claims {
         (independent, overtaken.into_iter().map(|plan| plan.hole.removed).collect())
     }
 
-    /// Whether the plan is independent of all that was claimed so far: none of them makes one of its edges or its only triangle, or
-    /// moves a source edge that it moves. If so, claims what it changes.
+    /// Whether the plan is independent of all that was claimed so far: no other plan makes one of
+    /// its edges or its only triangle, or moves a source edge that it moves. If so, claims what it
+    /// changes.
     fn claim(&mut self, plan: &Plan) -> bool {
         let is_independent =
             made(plan).all(|key| !self.made.has(key)) && moved(plan).all(|edge| !self.moved.has(edge));
@@ -165,8 +167,10 @@ mod tests {
     use crate::bound::GlobalError;
     use crate::bound::certified::Certified;
     use crate::decimate::jade::candidate::{Scratch, Situation};
+    use crate::decimate::jade::names::Names;
+    use crate::decimate::jade::options::Placement;
     use crate::generate::{sphere, torus};
-    use crate::mesh::Surface;
+    use crate::mesh::{Numbering, Surface};
     use nephrite_formats::TriangleMesh;
     use std::collections::HashSet;
 
@@ -182,8 +186,9 @@ mod tests {
 
     /// Plans for vertices of which no two are neighbours, the last ones first: of a bipyramid the two tops.
     fn plan_independent(surface: &Surface, error: &GlobalError) -> Vec<Plan> {
+        let names = Names::new(Numbering::along_curve(surface.positions()), None, Placement::Original);
         let situation =
-            Situation { surface, seams: None, names: None, error, cos_feature_angle: -1.0, aspect_loss: 0.5 };
+            Situation { surface, names: &names, error, cos_feature_angle: -1.0, aspect_loss: 0.5 };
         let mut scratch = Scratch::default();
         let mut picked = HashSet::new();
         let mut plans = vec![];

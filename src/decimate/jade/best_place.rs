@@ -7,6 +7,7 @@
 //! displacements there are smaller.
 
 use crate::bound::certified::images::{Image, largest_sq};
+use crate::geometry::bounds::Bounds;
 use crate::geometry::vector::{Vector, add_scaled, length, sub, widen};
 
 /// Rounds of new shares.
@@ -18,14 +19,14 @@ const N_WEIGHINGS: usize = 12;
 /// Parts of the way to a solution that are tried.
 const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
 
-/// A place better than `start`, where one is found within `bounds`, the least and largest coordinates, among those that
-/// `is_allowed`; and its largest squared displacement.
+/// A place within `bounds` that is better than `start` and for which `is_allowed`, and its largest
+/// squared displacement; `None` if none is found. The corners of `bounds` are exact in `f32`.
 ///
 /// O(images), some 60 displacements each.
 pub fn best_place(
     images: &[Image],
     start: [f32; 3],
-    bounds: ([f32; 3], [f32; 3]),
+    bounds: Bounds,
     is_allowed: impl Fn(Vector) -> bool,
 ) -> Option<([f32; 3], f64)> {
     let mut best = (start, largest_sq(images, widen(start)));
@@ -93,8 +94,9 @@ fn least_largest(terms: &mut [Term]) -> Vector {
 
 /// The nearest `f32` position within `bounds`.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what it is for")]
-fn narrow(p: Vector, (low, high): ([f32; 3], [f32; 3])) -> [f32; 3] {
-    std::array::from_fn(|i| (p[i] as f32).max(low[i]).min(high[i]))
+fn narrow(p: Vector, Bounds { low, high }: Bounds) -> [f32; 3] {
+    // The bounds are those of `f32` positions, and so exact.
+    std::array::from_fn(|i| (p[i] as f32).max(low[i] as f32).min(high[i] as f32))
 }
 
 #[cfg(test)]
@@ -102,7 +104,7 @@ mod tests {
     use super::*;
     use crate::bound::certified::images::Onto;
 
-    const SPACE: ([f32; 3], [f32; 3]) = ([-9.0; 3], [9.0; 3]);
+    const SPACE: Bounds = Bounds { low: [-9.0; 3], high: [9.0; 3] };
 
     /// A flat tent over a square: each of its four faces stands for a point at height 1 over the middle between the apex and
     /// the far edge.
@@ -127,7 +129,7 @@ mod tests {
 
     #[test]
     fn places_out_of_bounds_or_not_allowed_are_not_taken() {
-        let flat = ([-9.0, -9.0, 0.0], [9.0, 9.0, 0.25]);
+        let flat = Bounds { low: [-9.0, -9.0, 0.0], high: [9.0, 9.0, 0.25] };
         let (place, _) = best_place(&tent(), [0.0; 3], flat, |_| true).unwrap();
         assert_eq!(place[2], 0.25);
         assert_eq!(best_place(&tent(), [0.0; 3], SPACE, |place| place[2] < 0.05), None);

@@ -3,22 +3,21 @@
 use super::classify::{Class, classify};
 use super::fit::{FitBuffers, Fitting, fit};
 use super::flip::flip_edges;
+use super::names::Names;
 use super::triangulate::{Polygons, triangulate};
 use crate::bound::certified::images::Image;
 use crate::bound::certified::{Certified, Transfer};
 use crate::bound::estimate::Estimate;
 use crate::bound::{Errors, GlobalError, Limits};
-use crate::mesh::{Filling, Hole, NoHole, Seams, Surface};
+use crate::mesh::{Filling, Hole, NoHole, Surface};
 
 /// All that a candidate is judged by, and its removal planned from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Situation<'a> {
     /// The current mesh.
     pub surface: &'a Surface,
-    /// Its seams, if it has any.
-    pub seams: Option<&'a Seams>,
-    /// Vertex of the history for each of its vertices, where that is another one and no seam tells it.
-    pub names: Option<&'a [u32]>,
+    /// What its vertices are called in the history.
+    pub names: &'a Names,
     /// Its errors so far.
     pub error: &'a GlobalError,
     /// Cosine of the feature angle.
@@ -29,7 +28,7 @@ pub struct Situation<'a> {
 
 /// Why a candidate stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Refusal {
     /// Not under these limits: its errors are at least these.
     Above(Errors),
     /// Not while its star stays as it is.
@@ -57,15 +56,15 @@ pub(super) fn fill(
     v: u32,
     limits: Limits,
     scratch: &mut Scratch,
-) -> Result<(), Verdict> {
-    let Situation { surface, seams, error, cos_feature_angle, .. } = situation;
+) -> Result<(), Refusal> {
+    let Situation { surface, names, error, cos_feature_angle, .. } = situation;
     match scratch.hole.gather(surface, v) {
         Ok(()) if scratch.hole.n_ring() >= 3 => {}
-        Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Err(Verdict::Impossible),
+        Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Err(Refusal::Impossible),
     }
-    let class = classify(&scratch.hole, surface, seams, cos_feature_angle);
+    let class = classify(&scratch.hole, surface, names.seams(), cos_feature_angle);
     if class == Class::SeamCorner {
-        return Err(Verdict::Impossible);
+        return Err(Refusal::Impossible);
     }
     match error {
         GlobalError::Estimate(estimate) => fill_as_paper(situation, estimate, class, scratch),
@@ -79,10 +78,10 @@ fn fill_as_paper(
     estimate: &Estimate,
     class: Class,
     scratch: &mut Scratch,
-) -> Result<(), Verdict> {
+) -> Result<(), Refusal> {
     let Scratch { hole, filling, polygons, .. } = scratch;
     if !triangulate(situation.surface, hole, class, polygons, filling) {
-        return Err(Verdict::Impossible);
+        return Err(Refusal::Impossible);
     }
     flip_edges(situation.surface, hole, estimate.sampler(), situation.aspect_loss, filling);
     Ok(())
@@ -95,15 +94,15 @@ fn fill_best(
     class: Class,
     limits: Limits,
     scratch: &mut Scratch,
-) -> Result<(), Verdict> {
+) -> Result<(), Refusal> {
     let Scratch { hole, filling, polygons, fit: buffers, .. } = scratch;
     let surface = situation.surface;
     let limit_sq = limits.global * limits.global;
     match fit(Fitting { surface, certified, hole, class, limit_sq }, buffers, filling) {
         Some(fitted_sq) if fitted_sq > limit_sq => {
-            Err(Verdict::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
+            Err(Refusal::Above(Errors { local: 0.0, global: fitted_sq.sqrt() }))
         }
-        None if !triangulate(surface, hole, class, polygons, filling) => Err(Verdict::Impossible),
+        None if !triangulate(surface, hole, class, polygons, filling) => Err(Refusal::Impossible),
         _ => Ok(()),
     }
 }

@@ -5,15 +5,15 @@
 //! the best filling outright costs little more, since each of the few possible triangles is scored once, and it needs
 //! a quarter fewer triangles at the same error.
 
-use super::asked::{Asked, MAX_CORNERS};
 use super::classify::Class;
 use super::crossings::Crossings;
 use super::optimal::{EdgeScores, triangulate_optimally};
+use super::sampled_vertices::{MAX_CORNERS, SampledVertices};
 use super::triangulate::{collect_part, ring_index};
 use super::validity::{WORST_ASPECT, worst_star_aspect};
 use crate::bound::REACH;
 use crate::bound::certified::Certified;
-use crate::geometry::floor::Floor;
+use crate::geometry::height_triangle::HeightTriangle;
 use crate::geometry::vector::length_sq;
 use crate::mesh::{Filling, Hole, Surface};
 
@@ -38,13 +38,13 @@ pub struct FitBuffers {
     /// Source vertices mapped into the hole.
     covered: Vec<u32>,
     crossings: Crossings,
-    asked: Asked,
-    parts: [Part; 2],
+    sampled: SampledVertices,
+    parts: [HolePart; 2],
 }
 
-/// A polygon to be filled.
+/// A part of a hole: a polygon to be filled.
 #[derive(Clone, Debug, Default)]
-struct Part {
+struct HolePart {
     corners: Vec<u8>,
     edges: EdgeScores,
 }
@@ -61,7 +61,7 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
     if hole.n_ring() > MAX_CORNERS || size_sq <= 0.0 || !size_sq.is_finite() || is_tetrahedron {
         return None;
     }
-    let FitBuffers { covered, crossings, asked, parts } = buffers;
+    let FitBuffers { covered, crossings, sampled, parts } = buffers;
     let split = match class {
         Class::InteriorEdge(ends) => Some(ends.map(ring_index)),
         _ => None,
@@ -73,12 +73,13 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
     let is_inside = |&[i, j]: &[u8; 2]| !hole.is_ring_edge(i.into(), j.into());
     let split_sq = split.filter(is_inside).map_or(0.0, crossing_sq);
     let enough_sq = REACH * REACH * limit_sq;
-    let worst_sq = parts.each_mut().map(|Part { corners, edges }| edges.set(corners, enough_sq, crossing_sq));
+    let worst_sq =
+        parts.each_mut().map(|HolePart { corners, edges }| edges.set(corners, enough_sq, crossing_sq));
     let least_sq = worst_sq.into_iter().fold(split_sq, f64::max);
     if least_sq > limit_sq {
         return Some(least_sq);
     }
-    asked.gather(surface, hole, up, covered);
+    sampled.gather(surface, hole, up, covered);
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
     let mut taken: Vec<[u8; 2]> = vec![];
@@ -87,7 +88,7 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
             if taken.iter().any(|edge| edge.iter().all(|corner| triangle.contains(corner))) {
                 return f64::INFINITY;
             }
-            largest_distance_sq(hole, asked, triangle, worst_aspect, cutoff.min(enough_sq))
+            largest_distance_sq(hole, sampled, triangle, worst_aspect, cutoff.min(enough_sq))
         };
         let filled_sq = fill_parts(parts, enough_sq, score, filling)?;
         let worst_sq = filled_sq.max(split_sq);
@@ -103,7 +104,7 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
 }
 
 /// The polygons to be filled: one, or two on either side of the edge that splits the hole.
-fn collect_parts(hole: &Hole, split: Option<[u8; 2]>, parts: &mut [Part; 2], filling: &mut Filling) {
+fn collect_parts(hole: &Hole, split: Option<[u8; 2]>, parts: &mut [HolePart; 2], filling: &mut Filling) {
     let whole = [0, ring_index(hole.n_ring() - 1)];
     let [from, to] = split.unwrap_or(whole);
     filling.part_starts = [from, to];
@@ -117,14 +118,14 @@ fn collect_parts(hole: &Hole, split: Option<[u8; 2]>, parts: &mut [Part; 2], fil
 
 /// Fills each part as well as can be; the worst score, or a lower bound of it above `enough`.
 fn fill_parts(
-    parts: &[Part; 2],
+    parts: &[HolePart; 2],
     enough: f64,
     mut score: impl FnMut([u8; 3], f64) -> f64,
     filling: &mut Filling,
 ) -> Option<f64> {
     let Filling { triangles, n_first_part, .. } = filling;
     triangles.clear();
-    let mut fill = |Part { corners, edges }: &Part| {
+    let mut fill = |HolePart { corners, edges }: &HolePart| {
         if corners.len() < 3 {
             return Some(0.0);
         }
@@ -140,21 +141,21 @@ fn fill_parts(
 /// triangle faces away or is too thin.
 fn largest_distance_sq(
     hole: &Hole,
-    asked: &mut Asked,
+    sampled: &mut SampledVertices,
     triangle: [u8; 3],
     worst_aspect: f64,
     cutoff: f64,
 ) -> f64 {
-    if asked.flat_area(triangle) <= 0.0 {
+    if sampled.flat_area(triangle) <= 0.0 {
         return f64::INFINITY;
     }
-    let floor = Floor::new(triangle.map(|i| hole.points[usize::from(i)]));
-    if floor.is_thinner(worst_aspect) {
+    let corners = HeightTriangle::new(triangle.map(|i| hole.points[usize::from(i)]));
+    if corners.is_thinner(worst_aspect) {
         return f64::INFINITY;
     }
-    match asked.over(triangle) {
+    match sampled.over(triangle) {
         0 => 0.0,
-        over => asked.largest(over, cutoff, |p| floor.distance_sq(p)),
+        over => sampled.largest(over, cutoff, |p| corners.distance_sq(p)),
     }
 }
 

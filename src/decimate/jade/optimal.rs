@@ -5,7 +5,7 @@
 //! 1980; there for the sum of edge lengths). Here a triangulation is as bad as its worst triangle, ties go to the
 //! smaller sum. A polygon of `n` corners has `n (n-1) (n-2) / 6` triangles, each scored once.
 
-use super::asked::MAX_CORNERS;
+use super::sampled_vertices::MAX_CORNERS;
 use crate::geometry::prepared::{larger, smaller};
 
 /// Worst score and sum of scores of a triangulation.

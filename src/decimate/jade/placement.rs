@@ -8,11 +8,10 @@
 
 use super::best_place::best_place;
 use super::candidate::Scratch;
-use super::decimation::{Decimation, named_corners};
+use super::state::State;
 use super::validity::{WORST_ASPECT, aspect, worst_star_aspect};
 use crate::bound::GlobalError;
 use crate::bound::certified::images::largest_sq;
-use crate::geometry::morton::bounds;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Hole;
 use rayon::prelude::*;
@@ -26,51 +25,33 @@ const GAIN: f64 = 0.97;
 /// Squared cosine of the angle by which a triangle's normal may turn in one move.
 const TURN_COS_SQ: f64 = 0.75;
 
-/// Vertices that were born when others moved.
-#[derive(Clone, Debug, Default)]
-pub struct Moves {
-    /// For each, the vertex it was before, and its place.
-    pub born: Vec<(u32, [f32; 3])>,
-    n_triangles_last: usize,
-    bounds: ([f32; 3], [f32; 3]),
-}
-
-impl Moves {
-    /// None yet, of the vertices at `positions` in a mesh of `n_triangles`.
-    pub fn new(positions: &[[f32; 3]], n_triangles: usize) -> Self {
-        let bounds = bounds(positions.iter().copied());
-        Self { born: vec![], n_triangles_last: n_triangles, bounds }
-    }
-}
-
 /// Whether vertices may move at all, and the mesh is enough smaller than when they last did.
-pub fn is_due(decimation: &Decimation) -> bool {
-    let n_triangles = decimation.surface.n_triangles() as f64;
-    decimation.moves.as_ref().is_some_and(|moves| n_triangles <= DUE * moves.n_triangles_last as f64)
+pub fn is_due(state: &State) -> bool {
+    let n_triangles = state.surface.n_triangles() as f64;
+    state.moves.as_ref().is_some_and(|moves| n_triangles <= DUE * moves.n_triangles_last as f64)
 }
 
 /// Moves each vertex of `open` that gains by it, as one step of the history, and returns those that moved.
 ///
 /// Vertices of one colour share no triangle: their places are found in parallel, whatever the number of threads.
-pub fn improve(decimation: &mut Decimation, open: &[u32]) -> Vec<u32> {
+pub fn improve(state: &mut State, open: &[u32]) -> Vec<u32> {
     let mut moved = vec![];
-    for of_colour in colours(decimation, open) {
-        let find =
-            |&v: &u32| place_of(decimation, v, &mut decimation.workers.scratch()).map(|place| (v, place));
+    for of_colour in colours(state, open) {
+        let find = |&v: &u32| Some((v, place_of(state, v, &mut state.workers.scratch())?));
         let places: Vec<(u32, [f32; 3])> = of_colour.par_iter().filter_map(find).collect();
         for (v, place) in places {
-            decimation.surface.move_vertex(v, place);
+            state.surface.move_vertex(v, place);
             moved.push(v);
         }
     }
-    record(decimation, &moved);
+    record(state, &moved);
     moved
 }
 
 /// Vertices in classes, no two neighbours in one; greedy, in the order given.
-fn colours(decimation: &Decimation, open: &[u32]) -> Vec<Vec<u32>> {
+fn colours(state: &State, open: &[u32]) -> Vec<Vec<u32>> {
     const NONE: u8 = u8::MAX;
-    let surface = &decimation.surface;
+    let surface = &state.surface;
     let mut colour_of = vec![NONE; surface.n_vertices()];
     let mut classes: Vec<Vec<u32>> = vec![];
     for &v in open {
@@ -95,16 +76,17 @@ fn colours(decimation: &Decimation, open: &[u32]) -> Vec<Vec<u32>> {
 }
 
 /// The best place for `v`, if it may move and gains enough.
-fn place_of(decimation: &Decimation, v: u32, scratch: &mut Scratch) -> Option<[f32; 3]> {
-    let Decimation { surface, seams, error: GlobalError::Certified(certified), moves: Some(moves), .. } =
-        decimation
+fn place_of(state: &State, v: u32, scratch: &mut Scratch) -> Option<[f32; 3]> {
+    let State { surface, names, error: GlobalError::Certified(certified), moves: Some(moves), .. } = state
     else {
         return None;
     };
     let Scratch { hole, images, .. } = scratch;
-    let is_one = seams.as_ref().is_none_or(|seams| seams.only_vertex(surface, v).is_some());
-    if !is_one || hole.gather(surface, v).is_err() || !hole.closed || !certified.images_at(surface, v, images)
-    {
+    let can_move = names.is_single(surface, v)
+        && hole.gather(surface, v).is_ok()
+        && hole.closed
+        && certified.images_at(surface, v, images);
+    if !can_move {
         return None;
     }
     let start_sq = largest_sq(images, hole.apex);
@@ -127,8 +109,8 @@ fn keeps_shape(hole: &Hole, place: Vector) -> bool {
 }
 
 /// Writes the moves down: the stars of the old vertices die, those of the new ones are born.
-fn record(decimation: &mut Decimation, moved: &[u32]) {
-    let Decimation { surface, seams, names, moves: Some(moves), recorder, .. } = decimation else { return };
+fn record(state: &mut State, moved: &[u32]) {
+    let State { surface, names, moves: Some(moves), recorder, .. } = state else { return };
     moves.n_triangles_last = surface.n_triangles();
     if moved.is_empty() {
         return;
@@ -138,14 +120,11 @@ fn record(decimation: &mut Decimation, moved: &[u32]) {
     slots.sort_unstable();
     slots.dedup();
     for &slot in &slots {
-        recorder.death(slot, named_corners(surface, seams.as_ref(), names.as_deref(), slot));
+        recorder.death(slot, names.corners(surface, slot));
     }
     for &v in moved {
         let new = recorder.vertex();
-        let old = match seams {
-            Some(seams) => seams.rename(surface, v, new),
-            None => names.as_mut().map_or(v, |names| std::mem::replace(&mut names[v as usize], new)),
-        };
+        let old = names.rename(surface, v, new);
         moves.born.push((old, surface.positions()[v as usize]));
     }
     slots.iter().for_each(|&slot| recorder.birth(slot));

@@ -1,7 +1,7 @@
 //! One removal: planned, and carried out.
 
-use super::candidate::{Scratch, Situation, Verdict, fill};
-use super::decimation::named_corners;
+use super::candidate::{Refusal, Scratch, Situation, fill};
+use super::names::Names;
 use crate::bound::{Change, Limits, Replacement};
 use crate::history::Recorder;
 use crate::mesh::{Filling, Hole, Seams, Surface};
@@ -16,28 +16,30 @@ pub struct Plan {
     change: Change,
     /// The triangles of the star, as they are recorded: beside the change of the surface, which has others by then.
     dying: Vec<[u32; 3]>,
-    /// Those of the filling with their vertices; none where there are no seams.
+    /// Those of the filling, as they are recorded; none without seams.
     born_at_seams: Vec<[u32; 3]>,
 }
 
-/// Plans the removal of `v` under `limits`, or tells what it would need. A plan is long, and most candidates have none: in a box it is
-/// not moved about with them.
+/// Plans the removal of `v` under `limits`, or tells what it would need. The plan is in a box: it is
+/// long and most candidates have none.
 pub fn plan(
     situation: Situation<'_>,
     v: u32,
     limits: Limits,
     scratch: &mut Scratch,
-) -> Result<Box<Plan>, Verdict> {
+) -> Result<Box<Plan>, Refusal> {
     fill(situation, v, limits, scratch)?;
     let Scratch { hole, filling, transfer, .. } = scratch;
-    let Situation { surface, seams, names, .. } = situation;
+    let Situation { surface, names, .. } = situation;
     let replacement = Replacement { surface, hole, filling };
-    let (errors, change) = situation.error.change(replacement, limits, transfer).map_err(Verdict::Above)?;
+    let (errors, change) = situation.error.change(replacement, limits, transfer).map_err(Refusal::Above)?;
     Ok(Box::new(Plan {
         error: errors.global,
         change,
-        dying: hole.slots.iter().map(|&slot| named_corners(surface, seams, names, slot)).collect(),
-        born_at_seams: seams.map_or_else(Vec::new, |seams| seam_vertices(surface, seams, hole, filling)),
+        dying: hole.slots.iter().map(|&slot| names.corners(surface, slot)).collect(),
+        born_at_seams: names
+            .seams()
+            .map_or_else(Vec::new, |seams| seam_vertices(surface, seams, hole, filling)),
         filling: filling.clone(),
         hole: hole.without_points(),
     }))
@@ -69,13 +71,9 @@ impl Plan {
         hole.slots.iter().take(filling.triangles.len()).for_each(|&slot| recorder.birth(slot));
     }
 
-    /// Gives the filling its vertices.
-    pub fn set_seams(&self, seams: &mut Seams) {
-        self.hole
-            .slots
-            .iter()
-            .zip(&self.born_at_seams)
-            .for_each(|(&slot, &vertices)| seams.set(slot, vertices));
+    /// Gives the filling its vertices in the history.
+    pub fn name_filling(&self, names: &mut Names) {
+        names.set(&self.hole.slots, &self.born_at_seams);
     }
 }
 

@@ -7,7 +7,7 @@
 //! Low limits first keep the error of every intermediate mesh as low as can be, and so every level of the history
 //! good. With no error asked for, e* is a percent of the bounding diagonal for the start and then no limit at all.
 
-use super::JadeOptions;
+use super::options::JadeOptions;
 use crate::bound::Limits;
 
 /// e* of the first limit when no error is asked for, as a part of the bounding diagonal: the coarsest of the paper's runs.

@@ -1,6 +1,6 @@
 //! What was last found of each vertex, and which of them are to be tried next.
 
-use super::candidate::Verdict;
+use super::candidate::Refusal;
 use crate::bound::Limits;
 use crate::bound::accumulated::round_up;
 use crate::mesh::Surface;
@@ -177,9 +177,9 @@ impl Candidates {
     }
 
     /// Takes note of what a vertex needs.
-    pub fn set_verdict(&mut self, v: u32, verdict: Verdict, c2: f64) {
-        let (needed, found) = match verdict {
-            Verdict::Above(errors) => {
+    pub fn set_refusal(&mut self, v: u32, refusal: Refusal, c2: f64) {
+        let (needed, found) = match refusal {
+            Refusal::Above(errors) => {
                 let found = round_up(errors.global);
                 // What is beyond `f32` is beyond every limit.
                 let is_known = found.is_finite();
@@ -187,7 +187,7 @@ impl Candidates {
                     if is_known { round_up(errors.local.max(errors.global / c2)) } else { f32::INFINITY };
                 (needed, if is_known { found } else { 0.0 })
             }
-            Verdict::Impossible => (f32::INFINITY, 0.0),
+            Refusal::Impossible => (f32::INFINITY, 0.0),
         };
         self.needed[v as usize] = needed;
         self.found[v as usize] = found;
@@ -261,9 +261,9 @@ mod tests {
         let mut candidates = Candidates::new(surface.n_vertices());
         for v in 2..48 {
             let error = f64::from(v) / 8.0;
-            candidates.set_verdict(v, Verdict::Above(Errors { local: 0.0, global: error }), 1.0);
+            candidates.set_refusal(v, Refusal::Above(Errors { local: 0.0, global: error }), 1.0);
         }
-        candidates.set_verdict(1, Verdict::Impossible, 1.0);
+        candidates.set_refusal(1, Refusal::Impossible, 1.0);
         candidates.admit(stage(0).limits, CEILINGS.to_vec(), &surface);
         (surface, candidates)
     }
@@ -287,8 +287,8 @@ mod tests {
         let mut below = candidates.take_below(stage(0));
         let put_off = below.split_off(4);
         candidates.put_off(stage(0), put_off.clone());
-        candidates.set_verdict(0, Verdict::Above(Errors { local: 0.0, global: 3.5 }), 1.0);
-        candidates.set_verdict(9, Verdict::Above(Errors { local: 0.0, global: 2.5 }), 1.0);
+        candidates.set_refusal(0, Refusal::Above(Errors { local: 0.0, global: 3.5 }), 1.0);
+        candidates.set_refusal(9, Refusal::Above(Errors { local: 0.0, global: 2.5 }), 1.0);
         assert_eq!(candidates.sort_out(stage(0), below.clone()), &below[1..]);
         let second = candidates.take_below(stage(1));
         assert_eq!(second, put_off.into_iter().chain(10..17).collect::<Vec<_>>());

@@ -21,6 +21,7 @@ pub mod journal;
 pub mod proof;
 pub mod queue;
 pub mod ring;
+mod run;
 pub mod shadow;
 pub mod split;
 mod steps;
@@ -31,6 +32,7 @@ pub mod wedges;
 pub use decimation::{Decimation, Settings};
 use events::EventLog;
 use journal::{Counts, Trace};
+pub(crate) use run::run;
 
 /// How far the decimator goes, and how it splits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -1,4 +1,4 @@
-//! The input vertices that are asked which filling of a hole is best, and over which part of the hole each of them lies.
+//! The input vertices that score fillings of a hole, and over which part of the hole each lies.
 
 use crate::geometry::projection::{Plane, Point2, turn};
 use crate::geometry::vector::{Vector, length_sq, scale};
@@ -8,8 +8,8 @@ use multiversion::multiversion;
 /// Most ring vertices of a hole that is filled as well as can be.
 pub const MAX_CORNERS: usize = 11;
 
-/// Most vertices that are asked; of more of them so many, evenly spread.
-const MAX_ASKED: usize = Set::BITS as usize;
+/// Most vertices that are sampled; of more of them so many, evenly spread.
+const MAX_SAMPLED: usize = Set::BITS as usize;
 
 /// Points that are compared with a line at once.
 const LANES: usize = 8;
@@ -19,24 +19,25 @@ type Set = u64;
 
 /// Source vertices over a hole, or some of them.
 ///
-/// In the hole's average plane, each ring pair `i < j` is a line, and parts the vertices into those on one side of it and those on
-/// the other. The ones over a triangle are what three such sets have in common, and a vertex on a line lies over exactly one of the
-/// two triangles there.
+/// In the hole's average plane, each ring pair `i < j` is a line that parts the vertices into those
+/// on one side of it and those on the other. The vertices over a triangle are what three such sets
+/// have in common, and a vertex on a line lies over exactly one of the two triangles there.
 #[derive(Clone, Debug, Default)]
-pub struct Asked {
+pub struct SampledVertices {
     points: Vec<Vector>,
-    /// The points in the average plane, in units about as long as the hole, filled up with zeros to whole [`LANES`].
+    /// The points in the average plane, in units about as long as the hole, filled up with zeros
+    /// to whole [`LANES`].
     flat: [Vec<f32>; 2],
     ring: Vec<Point2>,
     /// Per ring pair, those on its left when it is run upwards.
     left: Vec<Set>,
-    /// Those that were too far from a triangle: they are likely to be so from others.
+    /// Those that were too far from a triangle: they are likely to be too far from others.
     far: Set,
 }
 
-impl Asked {
+impl SampledVertices {
     /// Asks the `covered` source vertices about fillings of `hole`, whose average plane has the normal `up` that is not zero. At most
-    /// [`MAX_CORNERS`] corners. O(ring pairs) for each that is asked.
+    /// [`MAX_CORNERS`] corners. O(ring pairs) for each that is sampled.
     pub fn gather(&mut self, surface: &Surface, hole: &Hole, up: Vector, covered: &[u32]) {
         let size = length_sq(up).sqrt();
         let (plane, unit) = (Plane::new(scale(up, 1.0 / size)), 1.0 / size.sqrt());
@@ -84,7 +85,7 @@ impl Asked {
     fn all(&self) -> Set {
         match self.points.len() {
             0 => 0,
-            n => Set::MAX >> (MAX_ASKED - n),
+            n => Set::MAX >> (MAX_SAMPLED - n),
         }
     }
 
@@ -118,9 +119,9 @@ fn part(flat: &[Vec<f32>; 2], ring: &[Point2], left: &mut Vec<Set>) {
     }
 }
 
-/// At most [`MAX_ASKED`] of the vertices, evenly spread.
+/// At most [`MAX_SAMPLED`] of the vertices, evenly spread.
 fn chosen(covered: &[u32]) -> impl Iterator<Item = u32> {
-    let n = covered.len().min(MAX_ASKED);
+    let n = covered.len().min(MAX_SAMPLED);
     (0..n).map(move |at| covered[at * covered.len() / n])
 }
 
@@ -155,30 +156,30 @@ mod tests {
         #[test]
         fn a_point_lies_over_one_triangle_of_a_fan(x in -0.6_f64..0.6, y in -0.6_f64..0.6, start in 0_u8..7) {
             let ring: Vec<Point2> = (0..7).map(|i| { let a = f64::from(i) * 0.897; [a.cos(), a.sin()] }).collect();
-            let mut asked = Asked { points: vec![[x, y, 0.0]; 9], ring, ..Asked::default() };
-            asked.find_sides(|[x, y, _]| [x, y]);
+            let mut sampled = SampledVertices { points: vec![[x, y, 0.0]; 9], ring, ..SampledVertices::default() };
+            sampled.find_sides(|[x, y, _]| [x, y]);
             let mut fan = (1..6).map(|i| [start, (start + i) % 7, (start + i + 1) % 7]);
-            let n_holders = fan.clone().filter(|&triangle| asked.over(triangle) != 0).count();
+            let n_holders = fan.clone().filter(|&triangle| sampled.over(triangle) != 0).count();
             prop_assert_eq!(n_holders, 1);
-            prop_assert!(fan.all(|triangle| [0, 0x1ff].contains(&asked.over(triangle))));
+            prop_assert!(fan.all(|triangle| [0, 0x1ff].contains(&sampled.over(triangle))));
         }
 
         #[test]
-        fn no_more_are_asked_than_there_are_bits(n in 0_u32..500) {
+        fn no_more_are_sampled_than_there_are_bits(n in 0_u32..500) {
             let covered: Vec<u32> = (0..n).collect();
             let chosen: Vec<u32> = chosen(&covered).collect();
-            prop_assert_eq!(chosen.len(), covered.len().min(MAX_ASKED));
+            prop_assert_eq!(chosen.len(), covered.len().min(MAX_SAMPLED));
             prop_assert!(chosen.windows(2).all(|pair| pair[0] < pair[1]));
         }
     }
 
     #[test]
-    fn the_first_one_too_far_is_asked_first_by_the_next() {
+    fn the_first_one_too_far_comes_first_for_the_next() {
         let points = [1.0, 9.0, 5.0].map(|x| [x, 0.0, 0.0]).to_vec();
-        let mut asked = Asked { points, ..Asked::default() };
-        assert_eq!(asked.largest(0b111, 10.0, |[x, ..]| x), 9.0);
-        assert_eq!(asked.largest(0b101, 4.0, |[x, ..]| x), 5.0);
-        assert_eq!(asked.largest(0b111, 0.5, |[x, ..]| x), 5.0);
-        assert_eq!(asked.largest(0, 0.5, |[x, ..]| x), 0.0);
+        let mut sampled = SampledVertices { points, ..SampledVertices::default() };
+        assert_eq!(sampled.largest(0b111, 10.0, |[x, ..]| x), 9.0);
+        assert_eq!(sampled.largest(0b101, 4.0, |[x, ..]| x), 5.0);
+        assert_eq!(sampled.largest(0b111, 0.5, |[x, ..]| x), 5.0);
+        assert_eq!(sampled.largest(0, 0.5, |[x, ..]| x), 0.0);
     }
 }

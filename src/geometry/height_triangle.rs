@@ -1,4 +1,4 @@
-//! Triangles under points most of which have the foot of their perpendicular inside: their distance is a height.
+//! Triangles for points that mostly lie over them: their distance is a height.
 
 use super::distance::{Triangle, point_triangle_distance_sq};
 use super::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
@@ -6,10 +6,10 @@ use super::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
 /// A corner's angle whose sine is at least the root of this leaves a normal that is exact to a dozen digits.
 const SOUND_SINE_SQ: f64 = 1e-6;
 
-/// A triangle with its normal. Cheaper to make than a [`PreparedTriangle`](super::prepared::PreparedTriangle), which pays for
-/// itself when there are many points.
+/// A triangle with its normal. Cheaper to make than a
+/// [`PreparedTriangle`](super::prepared::PreparedTriangle), which pays for itself with many points.
 #[derive(Clone, Copy, Debug)]
-pub struct Floor {
+pub struct HeightTriangle {
     corners: Triangle,
     edges: [Vector; 2],
     /// As long as twice the area.
@@ -20,8 +20,8 @@ pub struct Floor {
     across: [Vector; 2],
 }
 
-impl Floor {
-    /// The floor that is this triangle.
+impl HeightTriangle {
+    /// Prepares a triangle.
     #[inline(always)]
     pub fn new(corners: Triangle) -> Self {
         let [ab, ac] = [sub(corners[1], corners[0]), sub(corners[2], corners[0])];
@@ -44,7 +44,8 @@ impl Floor {
         self.normal_sq > SOUND_SINE_SQ * length_sq(ab) * length_sq(ac)
     }
 
-    /// Squared height of a point over the triangle, if the foot of its perpendicular is inside: its squared distance.
+    /// Squared height of a point over the triangle, which is its squared distance; `None` if the
+    /// foot of the perpendicular is outside.
     #[inline(always)]
     pub fn height_sq(&self, p: Vector) -> Option<f64> {
         let ap = sub(p, self.corners[0]);
@@ -55,7 +56,8 @@ impl Floor {
         })
     }
 
-    /// Squared distance of a point. For triangles that are not [sound](Self::is_sound) good enough to choose by, not to prove with.
+    /// Squared distance of a point. Of a triangle that is not [sound](Self::is_sound) it is good
+    /// enough to choose by, not to prove with.
     #[inline(always)]
     pub fn distance_sq(&self, p: Vector) -> f64 {
         self.height_sq(p).unwrap_or_else(|| point_triangle_distance_sq(p, &self.corners))
@@ -77,26 +79,26 @@ mod tests {
             let [a, b, c] = corners;
             // Down to triangles that are hardly sound.
             let c = [0, 1, 2].map(|axis| b[axis] + 10_f64.powi(flatness) * (c[axis] - b[axis]));
-            let floor = Floor::new([a, b, c]);
-            prop_assume!(floor.is_sound());
+            let triangle = HeightTriangle::new([a, b, c]);
+            prop_assume!(triangle.is_sound());
             let distance = point_triangle_distance_sq(p, &[a, b, c]).sqrt();
-            prop_assert!((floor.distance_sq(p).sqrt() - distance).abs() < 1e-9);
+            prop_assert!((triangle.distance_sq(p).sqrt() - distance).abs() < 1e-9);
         }
     }
 
     #[test]
     fn only_over_the_triangle_is_there_a_height() {
-        let floor = Floor::new([[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
-        assert_eq!(floor.height_sq([0.5, 0.5, -3.0]), Some(9.0));
-        assert_eq!(floor.height_sq([1.5, 1.0, 3.0]), None);
-        assert_eq!(floor.height_sq([-0.1, 1.0, 3.0]), None);
-        assert_eq!(floor.distance_sq([-1.0, 1.0, 0.0]), 1.0);
-        assert!(floor.is_sound());
+        let triangle = HeightTriangle::new([[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
+        assert_eq!(triangle.height_sq([0.5, 0.5, -3.0]), Some(9.0));
+        assert_eq!(triangle.height_sq([1.5, 1.0, 3.0]), None);
+        assert_eq!(triangle.height_sq([-0.1, 1.0, 3.0]), None);
+        assert_eq!(triangle.distance_sq([-1.0, 1.0, 0.0]), 1.0);
+        assert!(triangle.is_sound());
     }
 
     #[test]
     fn needles_are_not_sound() {
-        assert!(!Floor::new([[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1e-4, 0.0]]).is_sound());
-        assert!(!Floor::new([[0.0; 3]; 3]).is_sound());
+        assert!(!HeightTriangle::new([[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1e-4, 0.0]]).is_sound());
+        assert!(!HeightTriangle::new([[0.0; 3]; 3]).is_sound());
     }
 }
