@@ -172,7 +172,8 @@ impl From<PublishError> for MeshFailure {
 }
 
 fn write_mesh_in<S: Storage>(disk: &S, path: &Path, mesh: &TriangleMesh) -> Result<(), MeshFailure> {
-    let write = |file: &mut S::File| write_mesh_to(file, mesh, MeshFormat::Ply).map_err(MeshFailure::Mesh);
+    let write =
+        |file: &mut S::File| write_mesh_to(file, mesh, MeshFormat::Ply).map(drop).map_err(MeshFailure::Mesh);
     // Meshes have no checksums; what is read back must be the mesh.
     publish_in(disk, path, write, |file, temporary| {
         let mut bytes = Vec::new();

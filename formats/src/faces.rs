@@ -1,6 +1,6 @@
 //! Faces as a file lists them, made into triangles once the positions are known.
 
-use crate::ReadReport;
+use crate::FileReport;
 use crate::polygon::Triangulator;
 
 /// Faces in file order. Triangles are stored as such; polygons beside them, with their place in the order.
@@ -59,7 +59,7 @@ impl Faces {
     }
 
     /// All faces as triangles in file order, polygons cut; every index must be below `positions.len()`. Counts go to `report`.
-    pub(crate) fn into_triangles(self, positions: &[[f32; 3]], report: &mut ReadReport) -> Vec<[u32; 3]> {
+    pub(crate) fn into_triangles(self, positions: &[[f32; 3]], report: &mut FileReport) -> Vec<[u32; 3]> {
         report.n_faces_dropped += self.n_dropped;
         report.n_polygons_triangulated += self.polygons.len();
         if self.polygons.is_empty() {
@@ -100,7 +100,7 @@ mod tests {
         faces.push(&[3, 1]);
         faces.push_triangle([2, 1, 0]);
         let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        let mut report = ReadReport::new(MeshFormat::Ply);
+        let mut report = FileReport::new(MeshFormat::Ply);
         let triangles = faces.into_triangles(&positions, &mut report);
         assert_eq!(triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 3], [2, 1, 0]]);
         assert_eq!((report.n_polygons_triangulated, report.n_faces_dropped), (1, 1));

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::input::read_input;
 use crate::publish::publish;
 use crate::text::{Scanner, Style};
-use crate::{MeshError, ReadReport, TriangleMesh, Warning, gltf, obj, off, ply, stl};
+use crate::{FileReport, Kind, MeshError, TriangleMesh, gltf, obj, off, ply, stl};
 
 /// A mesh file format.
 ///
@@ -114,18 +114,18 @@ impl fmt::Display for MeshFormat {
 /// # Errors
 ///
 /// [`MeshError::InFile`] with the file's name and the error inside.
-pub fn read_mesh(path: impl AsRef<Path>) -> Result<(TriangleMesh, ReadReport), MeshError> {
+pub fn read_mesh(path: impl AsRef<Path>) -> Result<(TriangleMesh, FileReport), MeshError> {
     let path = path.as_ref();
     read_file(path).map_err(|error| error.in_file(path))
 }
 
-fn read_file(path: &Path) -> Result<(TriangleMesh, ReadReport), MeshError> {
+fn read_file(path: &Path) -> Result<(TriangleMesh, FileReport), MeshError> {
     let bytes = read_input(path)?;
     let extension = MeshFormat::from_path(path);
     let format = MeshFormat::detect(&bytes, extension).ok_or(MeshError::UnknownFormat)?;
     let (mesh, mut report) = read_bytes(&bytes, format, path.parent())?;
     if let Some(extension) = extension.filter(|&extension| extension != format) {
-        report.warnings.push(Warning::ExtensionDisagrees { extension, format });
+        report.remark(format!("the extension says {extension}, the contents are {format}"));
     }
     Ok((mesh, report))
 }
@@ -135,7 +135,7 @@ fn read_file(path: &Path) -> Result<(TriangleMesh, ReadReport), MeshError> {
 /// # Errors
 ///
 /// Any [`MeshError`] about contents; also for glTF that refers to other files, as there is no folder to look in.
-pub fn read_mesh_bytes(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, ReadReport), MeshError> {
+pub fn read_mesh_bytes(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, FileReport), MeshError> {
     read_bytes(bytes, format, None)
 }
 
@@ -143,7 +143,7 @@ fn read_bytes(
     bytes: &[u8],
     format: MeshFormat,
     folder: Option<&Path>,
-) -> Result<(TriangleMesh, ReadReport), MeshError> {
+) -> Result<(TriangleMesh, FileReport), MeshError> {
     match format {
         MeshFormat::Ply => ply::read(bytes),
         MeshFormat::Obj => obj::read(bytes),
@@ -155,18 +155,18 @@ fn read_bytes(
 
 /// Writes a mesh in the format that the path's extension names (`ply`, `obj`, `stl`, `off` or `glb`).
 ///
-/// The file appears whole or not at all.
+/// The file appears whole or not at all. The report tells what the format has no place for.
 ///
 /// # Errors
 ///
 /// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`], [`MeshError::InconsistentMesh`],
 /// [`MeshError::TooLargeForFormat`] or [`MeshError::Io`].
-pub fn write_mesh(path: impl AsRef<Path>, mesh: &TriangleMesh) -> Result<(), MeshError> {
+pub fn write_mesh(path: impl AsRef<Path>, mesh: &TriangleMesh) -> Result<FileReport, MeshError> {
     let path = path.as_ref();
     write_file(path, mesh).map_err(|error| error.in_file(path))
 }
 
-fn write_file(path: &Path, mesh: &TriangleMesh) -> Result<(), MeshError> {
+fn write_file(path: &Path, mesh: &TriangleMesh) -> Result<FileReport, MeshError> {
     let Some(format) = MeshFormat::from_path(path).filter(|&format| format != MeshFormat::Gltf) else {
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         return Err(MeshError::UnknownExtension { extension });
@@ -179,16 +179,24 @@ fn write_file(path: &Path, mesh: &TriangleMesh) -> Result<(), MeshError> {
 /// # Errors
 ///
 /// As [`write_mesh`], without the file's name.
-pub fn write_mesh_to(out: &mut dyn Write, mesh: &TriangleMesh, format: MeshFormat) -> Result<(), MeshError> {
+pub fn write_mesh_to(
+    out: &mut dyn Write,
+    mesh: &TriangleMesh,
+    format: MeshFormat,
+) -> Result<FileReport, MeshError> {
     mesh.check()?;
+    let mut report = FileReport::of_attributes(format, Kind::Attribute, &mesh.attributes);
     match format {
-        MeshFormat::Ply => ply::write(mesh, out),
-        MeshFormat::Obj => obj::write(mesh, out),
-        MeshFormat::Stl => stl::write(mesh, out),
-        MeshFormat::Off => off::write(mesh, out),
-        MeshFormat::Glb => gltf::write(mesh, out),
-        MeshFormat::Gltf => Err(MeshError::UnknownExtension { extension: format.extension().into() }),
+        MeshFormat::Ply => ply::write(mesh, out, &mut report)?,
+        MeshFormat::Obj => obj::write(mesh, out, &mut report)?,
+        MeshFormat::Stl => stl::write(mesh, out, &mut report)?,
+        MeshFormat::Off => off::write(mesh, out, &mut report)?,
+        MeshFormat::Glb => gltf::write(mesh, out, &mut report)?,
+        MeshFormat::Gltf => {
+            return Err(MeshError::UnknownExtension { extension: format.extension().into() });
+        }
     }
+    Ok(report)
 }
 
 /// The format whose first word, after comments, stands at the beginning.

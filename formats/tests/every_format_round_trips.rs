@@ -166,7 +166,7 @@ fn files_are_written_by_extension_in_any_case() {
         write_mesh(&path, &mesh).unwrap();
         let (read, report) = read_mesh(&path).unwrap();
         assert_eq!(corners(&read), corners(&mesh), "{name}");
-        assert!(report.warnings.is_empty(), "{name}");
+        assert!(report.notes().is_empty(), "{name}");
     }
 }
 

@@ -13,10 +13,10 @@ use std::time::Instant;
 
 use capped::{BYTES_ALWAYS, Capped, Watchdog, alone, within};
 use nephrite_formats::{
-    MeshError, MeshFormat, ReadReport, TriangleMesh, VolumeFormat, read_mesh_bytes, read_volume_bytes,
+    FileReport, MeshError, MeshFormat, TriangleMesh, VolumeFormat, read_mesh_bytes, read_volume_bytes,
 };
 
-fn read_within(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, ReadReport), MeshError> {
+fn read_within(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, FileReport), MeshError> {
     within(bytes.len(), format, || read_mesh_bytes(bytes, format))
 }
 

@@ -42,7 +42,7 @@ fn what_is_written_reads_back_the_same() {
     for format in [VolumeFormat::Vtu, VolumeFormat::Vtk] {
         let (read, report) = read_volume_bytes(&written(&near, format), format).unwrap();
         assert_eq!(read, near, "{format}");
-        assert!(report.warnings.is_empty());
+        assert!(report.notes().is_empty());
         let (read, _) = read_volume_bytes(&written(&far, format), format).unwrap();
         for v in 0..5 {
             let point = |mesh: &TetrahedronMesh| {
@@ -106,9 +106,9 @@ fn every_text_gives_the_same_two_tetrahedra() {
     assert_eq!(report.n_cells_ignored, 1);
     let (vtk, report) = read_volume_bytes(VTK_TEXT.as_bytes(), VolumeFormat::Vtk).unwrap();
     assert_eq!((vtk.attributes[0].scalar, vtk.attributes[1].n_components), (ScalarType::F64, 3));
-    assert_eq!(report.warnings.len(), 1);
+    assert_eq!(report.notes().len(), 1);
     let (vtu, report) = read_volume_bytes(VTU_TEXT.as_bytes(), VolumeFormat::Vtu).unwrap();
-    assert_eq!((vtu.attributes[0].scalar, report.warnings.len()), (ScalarType::I32, 1));
+    assert_eq!((vtu.attributes[0].scalar, report.notes().len()), (ScalarType::I32, 1));
 }
 
 #[test]
@@ -126,13 +126,13 @@ fn pieces_of_a_vtu_file_become_one_volume() {
     assert_eq!(mesh.positions[..5], mesh.positions[5..]);
     let ids: Vec<f64> = mesh.attribute("id").unwrap().values().collect();
     assert_eq!(ids, (1..=10).map(f64::from).collect::<Vec<_>>());
-    assert!(report.warnings.is_empty());
+    assert!(report.notes().is_empty());
     // A field that a piece lacks, has of another type or of another length is no field of the whole.
     for other in
         [("\"id\"", "\"name\""), ("Int32\" Name=\"id\"", "Float32\" Name=\"id\""), ("1 2 3 4 5<", "1 2 3 4<")]
     {
         let (mesh, report) = with(&[&piece, &piece.replace(other.0, other.1)]).unwrap();
-        assert!(mesh.attributes.is_empty() && !report.warnings.is_empty(), "{other:?}");
+        assert!(mesh.attributes.is_empty() && !report.notes().is_empty(), "{other:?}");
     }
     assert!(matches!(with(&[]), Err(MeshError::Missing { .. })));
     // Indices count from the first point of their own piece, and stay inside it.
@@ -199,7 +199,8 @@ fn a_field_of_the_wrong_length_is_left_out_and_named() {
     let text = VTU_TEXT.replace("1 2 3 4 5<", "1 2 3 4<");
     let (mesh, report) = read_volume_bytes(text.as_bytes(), VolumeFormat::Vtu).unwrap();
     assert!(mesh.attributes.is_empty());
-    assert_eq!(report.warnings[0].to_string(), "field \"id\" has 4 values for 5 vertices and is left out");
+    let note = "field \"id\" is left out: it has 4 values for 5 vertices";
+    assert_eq!(report.notes(), [note]);
 }
 
 #[test]

@@ -15,7 +15,9 @@ pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
     match read_mesh_bytes(bytes, format) {
         Ok((mesh, report)) => {
             mesh.check().unwrap();
-            assert!(!mesh.triangles.is_empty() && mesh.rounding.is_finite() && report.format == format);
+            assert!(
+                !mesh.triangles.is_empty() && mesh.rounding.is_finite() && report.format == format.into()
+            );
             let mut written = Vec::new();
             write_mesh_to(&mut written, &mesh, MeshFormat::Ply).unwrap();
             let (again, _) = read_mesh_bytes(&written, MeshFormat::Ply).unwrap();
@@ -37,7 +39,7 @@ pub(crate) fn read_volume(bytes: &[u8], format: VolumeFormat) {
     match read_volume_bytes(bytes, format) {
         Ok((mesh, report)) => {
             mesh.check().unwrap();
-            assert!(report.warnings.iter().all(|warning| warning.to_string().len() < 400));
+            assert!(report.notes().iter().all(|note| note.len() < 400));
             assert!(!mesh.tetrahedra.is_empty() && mesh.rounding.is_finite());
             write_volume_to(&mut Vec::new(), &mesh, VolumeFormat::Vtu).unwrap();
         }

@@ -51,7 +51,7 @@ fn outcome(path: &Path) -> String {
     };
     let lod = served(&build.mesh, &build.history, &Provenance::default());
     let triangles = format!("{} triangles", lod.at_level(0).n_simplices());
-    told(&triangles, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
+    told(&triangles, [json!(report), json!(build.repairs)], report.notes().into_iter())
 }
 
 #[test]

@@ -71,8 +71,8 @@ fn outcome(path: &Path) -> String {
         }
     };
     mesh.check().unwrap();
-    for warning in report.warnings.iter().map(ToString::to_string) {
-        assert!(!warning.contains(char::is_control) && warning.len() < 300, "{warning}");
+    for note in report.notes() {
+        assert!(!note.contains(char::is_control) && note.len() < 300, "{note}");
     }
     let build = match build_volume(&mesh, &VolumeOptions::default(), &|_| Continue(())) {
         Ok(build) => build,
@@ -81,7 +81,7 @@ fn outcome(path: &Path) -> String {
     };
     let lod = served(&build.mesh, &build.history, &Provenance::default());
     let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_simplices());
-    told(&tetrahedra, [json!(report), json!(build.repairs)], report.warnings.iter().map(variant))
+    told(&tetrahedra, [json!(report), json!(build.repairs)], report.notes().into_iter())
 }
 
 #[test]

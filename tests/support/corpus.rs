@@ -85,15 +85,15 @@ impl Corpus {
 }
 
 /// What is told of a file that was not refused: what is served of it, every count of the reports that is not zero, and the
-/// variants of the warnings.
-pub fn told(served: &str, reports: [Value; 2], warnings: impl Iterator<Item = String>) -> String {
+/// notes.
+pub fn told(served: &str, reports: [Value; 2], notes: impl Iterator<Item = String>) -> String {
     let mut counts = Vec::new();
     for report in reports {
         let of_number =
             |(key, value): (&String, &Value)| value.as_u64().filter(|&n| n > 0).map(|n| format!("{key} {n}"));
         counts.extend(report.as_object().unwrap().iter().filter_map(of_number));
     }
-    counts.extend(warnings);
+    counts.extend(notes);
     if counts.is_empty() {
         format!("accepted: {served}")
     } else {

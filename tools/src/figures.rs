@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::time::Duration;
 
 use nephrite::query::{CurvePoint, Simplex};
+use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 
 /// A count with its thousands apart: `69,451`.
@@ -127,6 +128,19 @@ pub(crate) fn tally(report: &Value) -> String {
         words.push("nothing to note".to_owned());
     }
     words.join(", ")
+}
+
+/// What reading a file did to its contents: what was converted, then what was left out or changed.
+pub(crate) fn reading(report: &FileReport) -> String {
+    let converted = [
+        (report.n_polygons_triangulated, "polygons cut into triangles"),
+        (report.n_welded, "corners joined"),
+        (report.n_solids_cut, "solids cut into tetrahedra"),
+    ];
+    let converted = converted.into_iter().filter(|&(n, _)| n > 0);
+    let converted = converted.map(|(n, what)| format!("{} {what}", count(n)));
+    let words: Vec<String> = converted.chain(report.notes()).collect();
+    if words.is_empty() { "nothing to note".to_owned() } else { words.join("; ") }
 }
 
 /// Lines of a name and what it is, the names as wide as the widest.

@@ -5,25 +5,21 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use nephrite::{Lod, TetrahedronMesh, TriangleMesh};
-use nephrite_formats::{MeshError, MeshFormat, ReadReport, VolumeFormat, VolumeReport};
+use nephrite_formats::{FileReport, MeshError, MeshFormat, VolumeFormat};
 
 use crate::failure::Failure;
 use crate::report;
 
-/// Reads a mesh and tells on stderr what its reader had to decide.
+/// Reads a mesh.
 ///
 /// # Errors
 ///
 /// Whatever is wrong with the file.
-pub(crate) fn read_mesh(path: &Path) -> Result<(TriangleMesh, ReadReport), Failure> {
-    let (mesh, read) = nephrite_formats::read_mesh(path)?;
-    for warning in &read.warnings {
-        report::note(&format!("{}: {warning}", path.display()));
-    }
-    Ok((mesh, read))
+pub(crate) fn read_mesh(path: &Path) -> Result<(TriangleMesh, FileReport), Failure> {
+    Ok(nephrite_formats::read_mesh(path)?)
 }
 
-/// Reads a volume, PLOT3D with its solutions, and tells on stderr what its reader had to decide.
+/// Reads a volume, PLOT3D with its solutions.
 ///
 /// # Errors
 ///
@@ -31,15 +27,18 @@ pub(crate) fn read_mesh(path: &Path) -> Result<(TriangleMesh, ReadReport), Failu
 pub(crate) fn read_volume(
     path: &Path,
     solutions: &[PathBuf],
-) -> Result<(TetrahedronMesh, VolumeReport), Failure> {
-    let (mesh, read) = match solutions {
+) -> Result<(TetrahedronMesh, FileReport), Failure> {
+    Ok(match solutions {
         [] => nephrite_formats::read_volume(path)?,
         solutions => nephrite_formats::read_plot3d(path, solutions)?,
-    };
-    for warning in &read.warnings {
-        report::note(&format!("{}: {warning}", path.display()));
+    })
+}
+
+/// Prints to stderr what a file held that was left out or changed.
+pub(crate) fn tell(path: &Path, report: &FileReport) {
+    for note in report.notes() {
+        report::note(&format!("{}: {note}", path.display()));
     }
-    Ok((mesh, read))
 }
 
 /// Whether a path names a volume by its extension.

@@ -70,6 +70,8 @@ pub(crate) struct Primitive {
     pub extensions: BTreeMap<String, IgnoredAny>,
 }
 
+/// Primitive mode of points.
+pub(crate) const POINTS: u32 = 0;
 /// Primitive mode of separate triangles.
 pub(crate) const TRIANGLES: u32 = 4;
 /// Primitive mode of strips.

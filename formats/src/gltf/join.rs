@@ -1,7 +1,7 @@
 //! Attributes of several primitives joined into attributes of one mesh.
 
 use crate::coordinates::nearest_f32;
-use crate::{Attribute, ScalarType, Warning};
+use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// The attributes of some vertices that follow one another.
 pub(crate) struct Block {
@@ -13,17 +13,17 @@ pub(crate) struct Block {
 ///
 /// An attribute keeps its type where all blocks that have it agree; otherwise it becomes `f32` with as many components as
 /// the widest. What is absent gets the neutral value: one for colours, zero for anything else.
-pub(crate) fn join(blocks: &[Block], warnings: &mut Vec<Warning>) -> Vec<Attribute> {
+pub(crate) fn join(blocks: &[Block], report: &mut FileReport) -> Vec<Attribute> {
     let mut names: Vec<&str> = Vec::new();
     for attribute in blocks.iter().flat_map(|block| &block.attributes) {
         if !names.contains(&attribute.name.as_str()) {
             names.push(&attribute.name);
         }
     }
-    names.into_iter().map(|name| join_one(name, blocks, warnings)).collect()
+    names.into_iter().map(|name| join_one(name, blocks, report)).collect()
 }
 
-fn join_one(name: &str, blocks: &[Block], warnings: &mut Vec<Warning>) -> Attribute {
+fn join_one(name: &str, blocks: &[Block], report: &mut FileReport) -> Attribute {
     let find = |block: &'_ Block| block.attributes.iter().position(|attribute| attribute.name == name);
     let given = || blocks.iter().filter_map(|block| find(block).map(|i| &block.attributes[i]));
     let n_components = given().map(|attribute| attribute.n_components).max().unwrap_or(1);
@@ -45,7 +45,9 @@ fn join_one(name: &str, blocks: &[Block], warnings: &mut Vec<Warning>) -> Attrib
         }
     }
     if n_filled > 0 {
-        warnings.push(Warning::AttributeFilled { name: name.into(), n_vertices: n_filled });
+        let id = report.named(Kind::Attribute, name);
+        let value = if is_color { "white" } else { "zero" };
+        report.change(id, Change::Filled { n_vertices: n_filled as u64, value });
     }
     Attribute { name: name.into(), scalar, n_components, bytes }
 }
@@ -97,11 +99,15 @@ mod tests {
             Block { n_vertices: 1, attributes: vec![bytes("color", 3, &[1, 2, 3])] },
             Block { n_vertices: 2, attributes: vec![bytes("label", 1, &[7, 8])] },
         ];
-        let mut warnings = Vec::new();
-        let joined = join(&blocks, &mut warnings);
+        let mut report = FileReport::new(crate::MeshFormat::Glb);
+        let joined = join(&blocks, &mut report);
         assert_eq!(joined[0], bytes("color", 3, &[1, 2, 3, 255, 255, 255, 255, 255, 255]));
         assert_eq!(joined[1], bytes("label", 1, &[0, 7, 8]));
-        assert_eq!(warnings.len(), 2);
+        let notes = [
+            "attribute \"color\" is absent at 2 vertices, now white there",
+            "attribute \"label\" is absent at 1 vertex, now zero there",
+        ];
+        assert_eq!(report.notes(), notes);
     }
 
     #[test]
@@ -110,7 +116,7 @@ mod tests {
             Block { n_vertices: 1, attributes: vec![bytes("color", 3, &[0, 51, 255])] },
             Block { n_vertices: 1, attributes: vec![Attribute::from_f32("color", 4, [0.5, 0.5, 0.5, 0.25])] },
         ];
-        let joined = join(&blocks, &mut Vec::new());
+        let joined = join(&blocks, &mut FileReport::new(crate::MeshFormat::Glb));
         assert_eq!(joined, [Attribute::from_f32("color", 4, [0.0, 0.2, 1.0, 1.0, 0.5, 0.5, 0.5, 0.25])]);
     }
 }

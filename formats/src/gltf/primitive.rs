@@ -2,11 +2,11 @@
 
 use super::accessor::{Elements, Source};
 use super::affine::{Affine, unit};
-use super::document::{Primitive, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES};
+use super::document::{POINTS, Primitive, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES};
 use super::names::attribute_name;
 use crate::coordinates::nearest_f32;
 use crate::error::{MeshError, Place};
-use crate::{Attribute, ReadReport, ScalarType, Warning};
+use crate::{Attribute, FileReport, Kind, ScalarType};
 
 /// The positions of a primitive before its map is applied.
 ///
@@ -51,30 +51,29 @@ pub(crate) fn attributes(
     primitive: &Primitive,
     map: &Affine,
     n_vertices: usize,
-    report: &mut ReadReport,
+    report: &mut FileReport,
 ) -> Result<Vec<Attribute>, MeshError> {
     let mut attributes: Vec<Attribute> = Vec::new();
-    let mut drop_attribute = |semantic: &str, reason: &str| {
-        let warning = Warning::AttributeDropped { name: semantic.into(), reason: reason.into() };
-        if !report.warnings.contains(&warning) {
-            report.warnings.push(warning);
-        }
-    };
     // Upper-case letters sort before the underscore, so glTF's own semantics come first and win over an application's.
     for (semantic, &accessor) in &primitive.attributes {
         if semantic == "POSITION" {
             continue;
         }
         let Some(name) = attribute_name(semantic) else {
-            drop_attribute(semantic, "glTF does not define it");
+            let id = report.named(Kind::Attribute, semantic);
+            report.leave_out(id, "glTF does not define it");
             continue;
         };
         let elements = source.elements(accessor)?;
         if elements.count as usize != n_vertices {
-            drop_attribute(semantic, "it has another length than the positions");
+            let id = report.named(Kind::Attribute, semantic);
+            report.leave_out(id, "it has another length than the positions");
         } else if attributes.iter().any(|attribute| attribute.name == name) {
-            drop_attribute(semantic, "another attribute has the same name");
+            let id = report.named(Kind::Attribute, semantic);
+            report.leave_out(id, "another attribute has the same name");
         } else {
+            let id = report.named(Kind::Attribute, &name);
+            report.keep(id);
             attributes.push(attribute(name, &elements, map));
         }
     }
@@ -119,7 +118,7 @@ pub(crate) fn triangles(
     primitive: &Primitive,
     n_vertices: u32,
     mirrors: bool,
-    report: &mut ReadReport,
+    report: &mut FileReport,
 ) -> Result<Vec<[u32; 3]>, MeshError> {
     let corners: Vec<u32> = match primitive.indices {
         None => (0..n_vertices).collect(),
@@ -156,7 +155,8 @@ pub(crate) fn triangles(
             None => Vec::new(),
         },
         _ => {
-            report.n_ignored_elements += 1;
+            let kind = if primitive.mode == POINTS { Kind::Point } else { Kind::Line };
+            report.count(kind, corners.len() as u64);
             Vec::new()
         }
     };

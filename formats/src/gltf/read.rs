@@ -13,7 +13,7 @@ use super::primitive::{attributes, positions, triangles};
 use super::scene::{Instance, instances};
 use crate::coordinates::{Coordinates, from_f64, from_translated, nearest_f32};
 use crate::error::{MeshError, Place, shown_name};
-use crate::{MeshFormat, ReadReport, TriangleMesh, Warning};
+use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads a glTF or GLB file; buffers in other files are looked for below `folder`.
 ///
@@ -24,17 +24,15 @@ pub(crate) fn read(
     bytes: &[u8],
     format: MeshFormat,
     folder: Option<&Path>,
-) -> Result<(TriangleMesh, ReadReport), MeshError> {
+) -> Result<(TriangleMesh, FileReport), MeshError> {
     let container = Container::open(bytes)?;
     let document: Document = serde_json::from_slice(container.json)?;
     if !document.asset.version.starts_with("2.") {
         let feature = format!("glTF version {}", shown_name(&document.asset.version));
         return Err(MeshError::Unsupported { place: Place::File, feature });
     }
-    let mut report = ReadReport::new(format);
-    if container.n_trailing_bytes > 0 {
-        report.warnings.push(Warning::TrailingBytes { n_bytes: container.n_trailing_bytes });
-    }
+    let mut report = FileReport::new(format);
+    report.count(Kind::TrailingByte, container.n_trailing_bytes);
     let buffers = Buffers::load(&document.buffers, container.binary, folder)?;
     let n_bytes = container.json.len() as u64 + buffers.n_bytes();
     let mut assembly = Assembly::new(Source { document: &document, buffers: &buffers, n_bytes });
@@ -78,16 +76,14 @@ impl<'a> Assembly<'a> {
     }
 
     /// Adds the primitives of a mesh under the map of its node.
-    fn add(&mut self, instance: &Instance, report: &mut ReadReport) -> Result<(), MeshError> {
+    fn add(&mut self, instance: &Instance, report: &mut FileReport) -> Result<(), MeshError> {
         let mesh = get(&self.source.document.meshes, instance.mesh, "mesh", Place::Part("scene"))?;
         if instance.has_skin {
-            note_ignored("a skin", report);
+            report.named(Kind::Skin, "");
         }
         let mut shared = Shared::new();
         for primitive in &mesh.primitives {
-            if !primitive.targets.is_empty() {
-                note_ignored("a morph target", report);
-            }
+            report.count(Kind::MorphTarget, primitive.targets.len() as u64);
             let place = Place::item("mesh", instance.mesh);
             self.spend(primitive, &shared, place)?;
             let (first, n_vertices) = match shared.get(&primitive.attributes) {
@@ -128,7 +124,7 @@ impl<'a> Assembly<'a> {
         primitive: &Primitive,
         map: &Affine,
         place: Place,
-        report: &mut ReadReport,
+        report: &mut FileReport,
     ) -> Result<(u32, u32), MeshError> {
         let points = positions(&self.source, primitive, place)?;
         let attributes = attributes(&self.source, primitive, map, points.len(), report)?;
@@ -143,7 +139,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Applies the maps and joins everything.
-    fn finish(mut self, report: &mut ReadReport) -> Result<TriangleMesh, MeshError> {
+    fn finish(mut self, report: &mut FileReport) -> Result<TriangleMesh, MeshError> {
         if self.triangles.is_empty() {
             return Err(MeshError::NoFaces { n_vertices: self.points.len() });
         }
@@ -162,7 +158,7 @@ impl<'a> Assembly<'a> {
                 from_f64(&self.points)?
             }
         };
-        let attributes = join(&self.blocks, &mut report.warnings);
+        let attributes = join(&self.blocks, report);
         Ok(TriangleMesh { origin, positions, triangles: self.triangles, attributes, rounding })
     }
 
@@ -172,12 +168,5 @@ impl<'a> Assembly<'a> {
         let is_common = first.is_translation() && self.maps.iter().all(|map| map == first);
         let is_exact = |point: &[f64; 3]| point.iter().all(|&value| f64::from(nearest_f32(value)) == value);
         (is_common && self.points.iter().all(is_exact)).then_some(first.translation)
-    }
-}
-
-fn note_ignored(feature: &str, report: &mut ReadReport) {
-    let warning = Warning::FeatureIgnored { feature: feature.into() };
-    if !report.warnings.contains(&warning) {
-        report.warnings.push(warning);
     }
 }

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::names::semantic;
 use crate::coordinates::nearest_f32;
 use crate::distinct::DistinctNames;
-use crate::{Attribute, MeshError, MeshFormat, ScalarType, TriangleMesh};
+use crate::{Attribute, Change, FileReport, Kind, MeshError, MeshFormat, ScalarType, TriangleMesh};
 
 /// Writes a mesh with all its attributes.
 ///
@@ -17,8 +17,12 @@ use crate::{Attribute, MeshError, MeshFormat, ScalarType, TriangleMesh};
 /// # Errors
 ///
 /// [`MeshError::TooLargeForFormat`] beyond 4 GiB, or [`MeshError::Io`].
-pub(crate) fn write(mesh: &TriangleMesh, out: &mut dyn Write) -> Result<(), MeshError> {
-    let parts = if mesh.triangles.is_empty() { Vec::new() } else { parts(mesh) };
+pub(crate) fn write(
+    mesh: &TriangleMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
+    let parts = if mesh.triangles.is_empty() { Vec::new() } else { parts(mesh, report) };
     let n_binary_bytes: u64 = parts.iter().map(|part| part.bytes.len() as u64).sum();
     let mut json = document(mesh, &parts, n_binary_bytes).to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
@@ -55,10 +59,15 @@ struct Part {
     bytes: Vec<u8>,
 }
 
-fn parts(mesh: &TriangleMesh) -> Vec<Part> {
+fn parts(mesh: &TriangleMesh, report: &mut FileReport) -> Vec<Part> {
     let mut parts = vec![position_part(mesh)];
     let mut names = DistinctNames::without(&["POSITION"]);
     for attribute in &mesh.attributes {
+        let id = report.named(Kind::Attribute, &attribute.name);
+        report.keep(id);
+        if matches!(attribute.scalar, ScalarType::I32 | ScalarType::U32 | ScalarType::F64) {
+            report.change(id, Change::Narrowed { scalar: "f32" });
+        }
         for mut part in attribute_parts(attribute) {
             part.semantic = part.semantic.map(|semantic| {
                 // Only an application's own semantics, which begin so, can have any name.

@@ -7,6 +7,7 @@
 
 mod parse;
 mod read;
+mod regions;
 mod write;
 
 pub(crate) use read::read;

@@ -1,5 +1,7 @@
 //! The statements of an OBJ file, gathered into flat lists.
 
+use super::regions::Regions;
+use crate::FileReport;
 use crate::coordinates::{check_coordinate, nearest_f32};
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style, parse_integer};
@@ -22,7 +24,6 @@ pub(crate) struct Statements {
     pub corners: Vec<[u32; 3]>,
     /// End of each face's corners; they begin where the previous face's end.
     pub face_ends: Vec<usize>,
-    pub n_ignored: usize,
 }
 
 /// What the three indices of a corner point at.
@@ -43,10 +44,11 @@ impl Statements {
     ///
     /// [`MeshError::Unexpected`], [`MeshError::NonFinite`], [`MeshError::CoordinateTooLarge`] or
     /// [`MeshError::IndexOutOfRange`] with the line at fault.
-    pub(crate) fn parse(bytes: &[u8]) -> Result<Self, MeshError> {
+    pub(crate) fn parse(bytes: &[u8], report: &mut FileReport) -> Result<Self, MeshError> {
         let mut scanner = Scanner::new(bytes, Style { hash_comments: true, continued_lines: true });
         let mut statements = Self { n_color_components: 3, ..Self::default() };
         let mut largest = [Largest::default(); 3];
+        let mut regions = Regions::default();
         loop {
             match scanner.word_in_line() {
                 None => {}
@@ -57,8 +59,11 @@ impl Statements {
                         [scanner.number_in_line()?, scanner.number_in_line()?, scanner.number_in_line()?];
                     statements.normals.push(normal.map(nearest_f32));
                 }
-                Some(b"f" | b"fo") => statements.face(&mut scanner, &mut largest)?,
-                Some(_) => statements.n_ignored += 1,
+                Some(b"f" | b"fo") => {
+                    statements.face(&mut scanner, &mut largest)?;
+                    regions.add_face(statements.n_triangles_of_last_face(), report);
+                }
+                Some(keyword) => regions.note(keyword, &mut scanner, report),
             }
             if !scanner.next_line() {
                 break;
@@ -72,6 +77,11 @@ impl Statements {
             }
         }
         Ok(statements)
+    }
+
+    fn n_triangles_of_last_face(&self) -> u64 {
+        let start = self.face_ends.iter().rev().nth(1).copied().unwrap_or(0);
+        (self.corners.len() - start).saturating_sub(2) as u64
     }
 
     fn list_lengths(&self) -> [u64; 3] {

@@ -6,17 +6,16 @@ use super::parse::{NONE, Statements};
 use crate::coordinates::{Coordinates, from_text};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
-use crate::{Attribute, MeshFormat, ReadReport, TriangleMesh, Warning};
+use crate::{Attribute, Change, FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads an OBJ file.
 ///
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError> {
-    let statements = Statements::parse(bytes)?;
-    let mut report = ReadReport::new(MeshFormat::Obj);
-    report.n_ignored_elements = statements.n_ignored;
+pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError> {
+    let mut report = FileReport::new(MeshFormat::Obj);
+    let statements = Statements::parse(bytes, &mut report)?;
     let vertices = Vertices::number(&statements)?;
     let Coordinates { origin, positions: listed, rounding } = from_text(&statements.positions)?;
     let positions: Vec<[f32; 3]> = vertices.triples.iter().map(|triple| listed[triple[0] as usize]).collect();
@@ -84,16 +83,22 @@ impl Vertices {
         (name, list): (&'static str, usize),
         values: &[[f32; N]],
         neutral: [f32; N],
-        report: &mut ReadReport,
+        report: &mut FileReport,
     ) -> Option<Attribute> {
-        let n_given = self.triples.iter().filter(|triple| triple[list] != NONE).count();
-        if n_given == 0 {
+        if values.is_empty() {
             return None;
         }
+        let id = report.found(Kind::Attribute, name);
+        let n_given = self.triples.iter().filter(|triple| triple[list] != NONE).count();
+        if n_given == 0 {
+            report.leave_out(id, "no face uses it");
+            return None;
+        }
+        report.keep(id);
         let n_unused = self.is_used.iter().filter(|&&is_used| !is_used).count();
         let n_vertices = self.triples.len() - n_unused - n_given;
         if n_vertices > 0 {
-            report.warnings.push(Warning::AttributeFilled { name: name.into(), n_vertices });
+            report.change(id, Change::Filled { n_vertices: n_vertices as u64, value: "zero" });
         }
         let value = |triple: &[u32; 3]| values.get(triple[list] as usize).copied().unwrap_or(neutral);
         let n_components = u32::try_from(N).unwrap_or(u32::MAX);
@@ -102,12 +107,14 @@ impl Vertices {
 }
 
 /// Colours, texture coordinates and normals of all vertices, those that the file gives.
-fn attributes(statements: &Statements, vertices: &Vertices, report: &mut ReadReport) -> Vec<Attribute> {
+fn attributes(statements: &Statements, vertices: &Vertices, report: &mut FileReport) -> Vec<Attribute> {
     let mut attributes = Vec::new();
     if statements.n_colored > 0 {
-        let n_vertices = statements.positions.len() - statements.n_colored;
+        let n_vertices = (statements.positions.len() - statements.n_colored) as u64;
+        let id = report.found(Kind::Attribute, "color");
+        report.keep(id);
         if n_vertices > 0 {
-            report.warnings.push(Warning::AttributeFilled { name: "color".into(), n_vertices });
+            report.change(id, Change::Filled { n_vertices, value: "white" });
         }
         let n_components = statements.n_color_components;
         let color = |triple: &[u32; 3]| {
@@ -134,7 +141,7 @@ mod tests {
 
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-    fn read_text(text: &str) -> (TriangleMesh, ReadReport) {
+    fn read_text(text: &str) -> (TriangleMesh, FileReport) {
         read(text.as_bytes()).unwrap()
     }
 
@@ -170,7 +177,7 @@ mod tests {
         assert_eq!(mesh.positions[4..], [mesh.positions[0], mesh.positions[1]]);
         let texcoord = floats(mesh.attribute("texcoord").unwrap());
         assert_eq!(texcoord[8..], [0.5, 0.5, 0.0, 0.0]);
-        assert!(report.warnings.is_empty());
+        assert!(report.notes().is_empty());
     }
 
     #[test]
@@ -181,7 +188,7 @@ mod tests {
             (color.n_components, floats(color)),
             (3, vec![1.0, 1.0, 1.0, 0.5, 0.25, 0.0, 1.0, 0.0, 0.0])
         );
-        assert_eq!(report.warnings, [Warning::AttributeFilled { name: "color".into(), n_vertices: 1 }]);
+        assert_eq!(report.notes(), ["attribute \"color\" is absent at 1 vertex, now white there"]);
     }
 
     #[test]
@@ -190,17 +197,24 @@ mod tests {
             "mtllib a.mtl\no thing\nf 1 2 \\\n 3 4\n{SQUARE}g x\nusemtl y\ns off\nl 1 2\np 1\nf 1 2\n"
         ));
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(
-            (report.n_polygons_triangulated, report.n_faces_dropped, report.n_ignored_elements),
-            (1, 1, 7)
-        );
+        assert_eq!((report.n_polygons_triangulated, report.n_faces_dropped), (1, 1));
+        let notes = [
+            "material library \"a.mtl\" is left out",
+            "object \"thing\" (2 triangles) is left out",
+            "group \"x\" is left out",
+            "material \"y\" is left out",
+            "1 line is left out",
+            "1 point is left out",
+            "1 face with fewer than 3 corners is left out",
+        ];
+        assert_eq!(report.notes(), notes);
     }
 
     #[test]
     fn unused_positions_keep_their_numbers() {
         let (mesh, report) = read_text(&format!("{SQUARE}vn 0 0 1\nf 1//1 3//1 4//1\n"));
         assert_eq!((mesh.positions.len(), mesh.triangles[0]), (4, [0, 2, 3]));
-        assert!(report.warnings.is_empty());
+        assert!(report.notes().is_empty());
     }
 
     #[test]

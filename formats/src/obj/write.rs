@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::{Attribute, MeshError, TriangleMesh};
+use crate::{Attribute, FileReport, Kind, MeshError, TriangleMesh};
 
 /// Writes a mesh in file coordinates, with as many digits as tell every number apart.
 ///
@@ -12,13 +12,21 @@ use crate::{Attribute, MeshError, TriangleMesh};
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(crate) fn write(mesh: &TriangleMesh, out: &mut dyn Write) -> Result<(), MeshError> {
+pub(crate) fn write(
+    mesh: &TriangleMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
     let attribute = |name: &str, fits: &dyn Fn(u32) -> bool| {
         mesh.attribute(name).filter(|attribute| fits(attribute.n_components))
     };
     let color = attribute("color", &|n_components| n_components == 3 || n_components == 4);
     let texcoord = attribute("texcoord", &|n_components| n_components == 2);
     let normal = attribute("normal", &|n_components| n_components == 3);
+    for kept in [color, texcoord, normal].into_iter().flatten() {
+        let id = report.named(Kind::Attribute, &kept.name);
+        report.keep(id);
+    }
     write_positions(mesh, color, out)?;
     write_list("vt", texcoord, out)?;
     write_list("vn", normal, out)?;

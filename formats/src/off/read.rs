@@ -4,7 +4,7 @@ use crate::coordinates::{Coordinates, from_text, nearest_f32};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
 use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::{Attribute, MeshFormat, ReadReport, ScalarType, TriangleMesh, Warning};
+use crate::{Attribute, FileReport, Kind, MeshFormat, ScalarType, TriangleMesh};
 
 /// What the keyword at the beginning of a file says about its vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,9 +38,9 @@ fn strip<'a>(word: &'a [u8], prefix: &[u8]) -> (bool, &'a [u8]) {
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError> {
     let mut scanner = Scanner::new(bytes, Style { hash_comments: true, continued_lines: false });
-    let mut report = ReadReport::new(MeshFormat::Off);
+    let mut report = FileReport::new(MeshFormat::Off);
     let mut word = scanner.word();
     let mut keyword = Keyword::default();
     if let Some(found) = word.and_then(Keyword::parse) {
@@ -62,11 +62,14 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError
     scanner.next_line();
     let (Coordinates { origin, positions, rounding }, attributes) =
         vertices(&mut scanner, keyword, n_vertices)?;
+    for attribute in &attributes {
+        let id = report.found(Kind::Attribute, &attribute.name);
+        report.keep(id);
+    }
     let triangles =
         faces(&mut scanner, n_faces, n_vertices, &mut report)?.into_triangles(&positions, &mut report);
     if let Some(word) = scanner.word() {
-        let n_bytes = (word.len() + scanner.n_bytes_left()) as u64;
-        report.warnings.push(Warning::TrailingBytes { n_bytes });
+        report.count(Kind::TrailingByte, (word.len() + scanner.n_bytes_left()) as u64);
     }
     if triangles.is_empty() {
         return Err(MeshError::NoFaces { n_vertices: positions.len() });
@@ -157,11 +160,11 @@ fn faces(
     scanner: &mut Scanner<'_>,
     n_faces: u32,
     n_vertices: u32,
-    report: &mut ReadReport,
+    report: &mut FileReport,
 ) -> Result<Faces, MeshError> {
     let mut faces = Faces::default();
     let mut corners: Vec<u32> = Vec::new();
-    let mut has_colors = false;
+    let mut n_colored = 0;
     for found in 0..n_faces {
         check_more(scanner, "faces", n_faces, found)?;
         let word = scanner.word();
@@ -180,12 +183,13 @@ fn faces(
             let (place, count) = (scanner.place(), n_vertices.into());
             corners.push(valid.ok_or(MeshError::IndexOutOfRange { place, what: "vertex", index, count })?);
         }
-        has_colors |= scanner.word_in_line().is_some();
+        n_colored += u64::from(scanner.word_in_line().is_some());
         scanner.next_line();
         faces.push(&corners);
     }
-    if has_colors {
-        report.warnings.push(Warning::FaceDataIgnored { name: "color".into() });
+    if n_colored > 0 {
+        let id = report.found(Kind::FaceData, "color");
+        report.grow(id, n_colored, "faces");
     }
     Ok(faces)
 }
@@ -203,7 +207,7 @@ mod tests {
 
     const SQUARE: &str = "OFF # a square\n#\n4 1 0\n0 0 0\n1 0 0 # here\n1 1 0\n\n0 1 0\n4 0 1 2 3\n";
 
-    fn read_text(text: &str) -> (TriangleMesh, ReadReport) {
+    fn read_text(text: &str) -> (TriangleMesh, FileReport) {
         read(text.as_bytes()).unwrap()
     }
 
@@ -234,7 +238,7 @@ mod tests {
         let texcoord: Vec<f64> = mesh.attribute("texcoord").unwrap().values().collect();
         assert_eq!(texcoord, [0.5, 0.25, 0.0, 0.0, 1.0, 1.0]);
         assert_eq!(mesh.attribute("normal").unwrap().values().nth(2), Some(1.0));
-        assert_eq!(report.warnings, [Warning::FaceDataIgnored { name: "color".into() }]);
+        assert_eq!(report.notes(), ["face data \"color\" (1 face) is left out"]);
     }
 
     #[test]

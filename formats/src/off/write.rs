@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use crate::coordinates::nearest_f32;
-use crate::{Attribute, MeshError, ScalarType, TriangleMesh};
+use crate::{Attribute, FileReport, Kind, MeshError, ScalarType, TriangleMesh};
 
 /// Writes a mesh in file coordinates, with as many digits as tell every number apart.
 ///
@@ -13,13 +13,21 @@ use crate::{Attribute, MeshError, ScalarType, TriangleMesh};
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(crate) fn write(mesh: &TriangleMesh, out: &mut dyn Write) -> Result<(), MeshError> {
+pub(crate) fn write(
+    mesh: &TriangleMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
     let attribute = |name: &str, fits: &[u32]| {
         mesh.attribute(name).filter(|attribute| fits.contains(&attribute.n_components))
     };
     let texcoord = attribute("texcoord", &[2]);
     let color = attribute("color", &[3, 4]);
     let normal = attribute("normal", &[3]);
+    for kept in [texcoord, color, normal].into_iter().flatten() {
+        let id = report.named(Kind::Attribute, &kept.name);
+        report.keep(id);
+    }
     let flag = |is_set: bool, letters: &'static str| if is_set { letters } else { "" };
     let keyword =
         [flag(texcoord.is_some(), "ST"), flag(color.is_some(), "C"), flag(normal.is_some(), "N")].concat();

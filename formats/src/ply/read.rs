@@ -6,14 +6,14 @@ use super::text::{Layout, Text};
 use crate::coordinates::Coordinates;
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
-use crate::{Attribute, MeshFormat, ReadReport, TriangleMesh, Warning};
+use crate::{Attribute, FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads a PLY file.
 ///
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError> {
     let header = Header::parse(bytes)?;
     match header.encoding {
         Encoding::Text => {
@@ -33,7 +33,7 @@ pub(crate) trait Values {
     fn vertices(
         &mut self,
         element: &Element,
-        report: &mut ReadReport,
+        report: &mut FileReport,
     ) -> Result<(Coordinates, Vec<Attribute>), MeshError>;
 
     /// Calls `visit` with the place and the values of the list property number `list` of every record.
@@ -73,8 +73,8 @@ pub(crate) trait Values {
 /// What is called with each list.
 pub(crate) type Visit<'a> = dyn FnMut(Place, &[i64]) -> Result<(), MeshError> + 'a;
 
-fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMesh, ReadReport), MeshError> {
-    let mut report = ReadReport::new(MeshFormat::Ply);
+fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMesh, FileReport), MeshError> {
+    let mut report = FileReport::new(MeshFormat::Ply);
     let n_vertices = n_vertices(header)?;
     let mut vertices = None;
     let mut faces = Faces::default();
@@ -93,21 +93,18 @@ fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMe
                 })?;
             }
             _ => {
-                report.n_ignored_elements = report
-                    .n_ignored_elements
-                    .saturating_add(usize::try_from(element.count).unwrap_or(usize::MAX));
+                let id = report.named(Kind::Element, &element.name);
+                report.grow(id, element.count, "records");
                 values.skip(element)?;
             }
         }
     }
     let n_lines = values.n_lines_cut();
     if n_lines > 0 {
-        report.warnings.push(Warning::LineRestIgnored { n_lines });
+        report
+            .remark(format!("the rest of {n_lines} lines is left out: it is more than the header declares"));
     }
-    let n_bytes = values.n_trailing_bytes() as u64;
-    if n_bytes > 0 {
-        report.warnings.push(Warning::TrailingBytes { n_bytes });
-    }
+    report.count(Kind::TrailingByte, values.n_trailing_bytes() as u64);
     let (Coordinates { origin, positions, rounding }, attributes) =
         vertices.ok_or(MeshError::Missing { place: Place::Part("header"), what: "vertex element" })?;
     let triangles = faces.into_triangles(&positions, &mut report);
@@ -137,11 +134,11 @@ fn index_list(element: &Element, part: &'static str) -> Result<usize, MeshError>
 }
 
 /// Names the properties of faces that are not read.
-fn note_face_data(element: &Element, list: usize, report: &mut ReadReport) {
-    let others = element.properties.iter().enumerate().filter(|&(place, _)| place != list);
-    report
-        .warnings
-        .extend(others.map(|(_, property)| Warning::FaceDataIgnored { name: property.name.clone() }));
+fn note_face_data(element: &Element, list: usize, report: &mut FileReport) {
+    for (_, property) in element.properties.iter().enumerate().filter(|&(place, _)| place != list) {
+        let id = report.named(Kind::FaceData, &property.name);
+        report.grow(id, element.count, "faces");
+    }
 }
 
 /// Adds the strips of one list, which negative indices (also written as the largest unsigned one) separate.
@@ -186,7 +183,7 @@ mod tests {
         let color = mesh.attribute("color").unwrap();
         assert_eq!((color.scalar, color.n_components), (ScalarType::U8, 3));
         assert_eq!(color.bytes, [255, 0, 0, 0, 255, 0, 0, 0, 255, 9, 9, 9]);
-        assert_eq!(report, ReadReport::new(MeshFormat::Ply));
+        assert!(report.notes().is_empty());
     }
 
     #[test]
@@ -196,8 +193,12 @@ mod tests {
             property double z\nproperty int y\nproperty char x\nend_header\n5 6 3 0 1 2 0.5 2 7 7 0 0 1 0 0 2 0 1 9 0 0 0";
         let (mesh, report) = read(text.as_bytes()).unwrap();
         assert_eq!(mesh.positions, [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0]]);
-        assert_eq!(report.n_ignored_elements, 1);
-        assert_eq!(report.warnings.len(), 2);
+        let notes = [
+            "element \"edge\" (1 record) is left out",
+            "face data \"q\" (1 face) is left out",
+            "attribute \"tags\" is left out: it is a list",
+        ];
+        assert_eq!(report.notes(), notes);
     }
 
     #[test]
@@ -213,7 +214,8 @@ mod tests {
         let text = TEXT.replace("3 0 1 2\n3 0 2 3\n", "3 0 1 2 77 78\n3 0 2 3 9\n");
         let (mesh, report) = read(text.as_bytes()).unwrap();
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(report.warnings, [Warning::LineRestIgnored { n_lines: 2 }]);
+        let rest = "the rest of 2 lines is left out: it is more than the header declares";
+        assert_eq!(report.notes(), [rest]);
         let one_line = TEXT.replace("2 3\n", "2 3").replace("1 2\n", "1 2 ");
         assert_eq!(read(one_line.as_bytes()).unwrap().0.triangles, mesh.triangles);
     }

@@ -9,7 +9,7 @@ use super::vertices::{Field, Records, coordinate_properties, packed_fields, take
 use crate::coordinates::{Coordinates, check_coordinate, nearest_f32};
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::{Attribute, ReadReport, ScalarType};
+use crate::{Attribute, FileReport, ScalarType};
 
 /// The words after the header.
 pub(crate) struct Text<'a> {
@@ -123,7 +123,7 @@ impl Values for Text<'_> {
     fn vertices(
         &mut self,
         element: &Element,
-        report: &mut ReadReport,
+        report: &mut FileReport,
     ) -> Result<(Coordinates, Vec<Attribute>), MeshError> {
         let coordinates = coordinate_properties(element)?;
         let mut wide = element.clone();

@@ -6,7 +6,7 @@ use super::header::{Element, PropertyKind};
 use super::names::plan_attributes;
 use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
 use crate::error::{MeshError, Place};
-use crate::{Attribute, ReadReport, ScalarType, Warning};
+use crate::{Attribute, FileReport, Kind, ScalarType};
 
 /// Vertex records, one after another, all of the same layout.
 pub(crate) struct Records<'a> {
@@ -69,23 +69,24 @@ pub(crate) fn coordinate_properties(element: &Element) -> Result<[usize; 3], Mes
 pub(crate) fn take_apart(
     records: &Records<'_>,
     element: &Element,
-    report: &mut ReadReport,
+    report: &mut FileReport,
 ) -> Result<(Coordinates, Vec<Attribute>), MeshError> {
     let places = coordinate_properties(element)?;
     let coordinates = positions(records, places)?;
     for property in &element.properties {
         if matches!(property.kind, PropertyKind::List { .. }) {
-            let (name, reason) = (property.name.clone(), "it is a list".into());
-            report.warnings.push(Warning::AttributeDropped { name, reason });
+            let id = report.found(Kind::Attribute, &property.name);
+            report.leave_out(id, "it is a list");
         }
     }
     let mut attributes: Vec<Attribute> = Vec::new();
     for plan in plan_attributes(element, places) {
+        let id = report.found(Kind::Attribute, &plan.name);
         if attributes.iter().any(|attribute| attribute.name == plan.name) {
-            let reason = "another attribute has the same name".into();
-            report.warnings.push(Warning::AttributeDropped { name: plan.name, reason });
+            report.leave_out(id, "another attribute has the same name");
             continue;
         }
+        report.keep(id);
         let n_components = u32::try_from(plan.properties.len()).unwrap_or(u32::MAX);
         let offsets: Vec<usize> =
             plan.properties.iter().filter_map(|&p| records.fields[p]).map(|f| f.offset).collect();

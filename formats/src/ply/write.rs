@@ -3,14 +3,22 @@
 use std::io::Write;
 
 use super::names::property_names;
-use crate::{MeshError, ScalarType, TriangleMesh};
+use crate::{FileReport, Kind, MeshError, ScalarType, TriangleMesh};
 
 /// Writes a mesh; coordinates are `float` where the origin is zero and `double`, in file coordinates, where it is not.
 ///
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(crate) fn write(mesh: &TriangleMesh, out: &mut dyn Write) -> Result<(), MeshError> {
+pub(crate) fn write(
+    mesh: &TriangleMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
+    for attribute in &mesh.attributes {
+        let id = report.named(Kind::Attribute, &attribute.name);
+        report.keep(id);
+    }
     let is_shifted = mesh.origin != [0.0; 3];
     write_header(mesh, is_shifted, out)?;
     let mut record = Vec::new();

@@ -39,19 +39,21 @@ pub struct PublishError {
 /// # Errors
 ///
 /// Those of `write` and of the file system. `path` is then as it was.
-pub fn publish<E: From<io::Error>>(
+pub fn publish<T, E: From<io::Error>>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-) -> Result<(), E> {
+    write: impl FnOnce(&mut dyn Write) -> Result<T, E>,
+) -> Result<T, E> {
     if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
         let mut writer = BufWriter::with_capacity(BUFFER_BYTES, File::options().write(true).open(path)?);
-        write(&mut writer)?;
-        return Ok(writer.flush()?);
+        let written = write(&mut writer)?;
+        writer.flush()?;
+        return Ok(written);
     }
-    let buffered = |file: &mut File| -> Result<(), Failure<E>> {
+    let buffered = |file: &mut File| -> Result<T, Failure<E>> {
         let mut writer = BufWriter::with_capacity(BUFFER_BYTES, file);
-        write(&mut writer).map_err(Failure::Caller)?;
-        writer.flush().map_err(|error| Failure::Caller(error.into()))
+        let written = write(&mut writer).map_err(Failure::Caller)?;
+        writer.flush().map_err(|error| Failure::Caller(error.into()))?;
+        Ok(written)
     };
     publish_in(&Disk, path, buffered, |_, _| Ok(())).map_err(|failure| match failure {
         Failure::Caller(error) => error,
@@ -174,8 +176,8 @@ mod tests {
     fn a_failure_leaves_the_old_file_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mesh.ply");
-        publish::<io::Error>(&path, |out| out.write_all(b"old")).unwrap();
-        let failed = publish::<io::Error>(&path, |out| {
+        publish::<_, io::Error>(&path, |out| out.write_all(b"old")).unwrap();
+        let failed = publish::<(), io::Error>(&path, |out| {
             out.write_all(&[0; 1 << 20])?;
             Err(io::Error::other("full"))
         });
@@ -187,7 +189,7 @@ mod tests {
     #[test]
     fn a_missing_folder_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(publish::<io::Error>(&folder.path().join("none/mesh.ply"), |_| Ok(())).is_err());
+        assert!(publish::<_, io::Error>(&folder.path().join("none/mesh.ply"), |_| Ok(())).is_err());
     }
 
     #[cfg(unix)]
@@ -197,10 +199,10 @@ mod tests {
         let (file, link) = (folder.path().join("file"), folder.path().join("link"));
         fs::write(&file, b"old").unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
-        publish::<io::Error>(&link, |out| out.write_all(b"new")).unwrap();
+        publish::<_, io::Error>(&link, |out| out.write_all(b"new")).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert!(fs::symlink_metadata(&link).unwrap().file_type().is_symlink());
-        publish::<io::Error>(Path::new("/dev/null"), |out| out.write_all(b"gone")).unwrap();
+        publish::<_, io::Error>(Path::new("/dev/null"), |out| out.write_all(b"gone")).unwrap();
     }
 
     #[cfg(unix)]
@@ -225,10 +227,10 @@ mod tests {
         fs::write(&others, b"half a").unwrap();
         let in_use = leftover("mesh.ply", "def");
         let writer = Disk.create(&in_use).unwrap();
-        publish::<io::Error>(&path, |out| out.write_all(b"whole")).unwrap();
+        publish::<_, io::Error>(&path, |out| out.write_all(b"whole")).unwrap();
         assert!(!abandoned.exists() && others.exists() && in_use.exists());
         drop(writer);
-        publish::<io::Error>(&path, |out| out.write_all(b"whole")).unwrap();
+        publish::<_, io::Error>(&path, |out| out.write_all(b"whole")).unwrap();
         assert!(!in_use.exists() && others.exists());
     }
 }

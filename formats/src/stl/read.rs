@@ -5,7 +5,7 @@ use crate::coordinates::{Coordinates, check_coordinate, from_f32, from_text};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
 use crate::text::{Scanner, Style};
-use crate::{MeshFormat, ReadReport, TriangleMesh, Warning};
+use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 const HEADER_BYTES: usize = 80;
 const TRIANGLE_BYTES: usize = 50;
@@ -21,8 +21,8 @@ pub(crate) fn length_of_binary(bytes: &[u8]) -> Option<u64> {
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, ReadReport), MeshError> {
-    let mut report = ReadReport::new(MeshFormat::Stl);
+pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError> {
+    let mut report = FileReport::new(MeshFormat::Stl);
     let (Coordinates { origin, positions: corners, rounding }, triangles) =
         if is_text(bytes) { read_text(bytes, &mut report)? } else { read_binary(bytes, &mut report)? };
     if triangles.is_empty() {
@@ -48,16 +48,14 @@ fn is_text(bytes: &[u8]) -> bool {
 /// Corners of all triangles, and the triangles over them.
 type Soup = (Coordinates, Vec<[u32; 3]>);
 
-fn read_binary(bytes: &[u8], report: &mut ReadReport) -> Result<Soup, MeshError> {
+fn read_binary(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError> {
     let found = bytes.len() as u64;
     let truncated = |what, expected| MeshError::Truncated { place: Place::Byte(0), what, expected, found };
     let expected = length_of_binary(bytes).ok_or_else(|| truncated("STL header", HEADER_BYTES as u64 + 4))?;
     if found < expected {
         return Err(truncated("STL file", expected));
     }
-    if found > expected {
-        report.warnings.push(Warning::TrailingBytes { n_bytes: found - expected });
-    }
+    report.count(Kind::TrailingByte, found - expected);
     let (records, _) = bytes[HEADER_BYTES + 4..].as_chunks::<TRIANGLE_BYTES>();
     let n_triangles = usize::try_from((expected - HEADER_BYTES as u64 - 4) / TRIANGLE_BYTES as u64);
     let n_triangles = n_triangles.unwrap_or(usize::MAX).min(records.len());
@@ -74,7 +72,7 @@ fn read_binary(bytes: &[u8], report: &mut ReadReport) -> Result<Soup, MeshError>
     Ok((coordinates, triangles.collect()))
 }
 
-fn read_text(bytes: &[u8], report: &mut ReadReport) -> Result<Soup, MeshError> {
+fn read_text(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError> {
     let mut scanner = Scanner::new(bytes, Style::default());
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut faces = Faces::default();
@@ -172,7 +170,7 @@ mod tests {
         let mut bytes = binary(b"x", &[TRIANGLE]);
         bytes.push(0);
         let (_, report) = read(&bytes).unwrap();
-        assert_eq!(report.warnings, [Warning::TrailingBytes { n_bytes: 1 }]);
+        assert_eq!(report.notes(), ["1 byte behind the mesh is left out"]);
         bytes.truncate(100);
         let message = "STL file at byte 0 is cut short: 134 bytes expected, 100 found";
         assert_eq!(read(&bytes).unwrap_err().to_string(), message);

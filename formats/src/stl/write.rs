@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use crate::coordinates::nearest_f32;
-use crate::{MeshError, MeshFormat, TriangleMesh};
+use crate::{FileReport, Kind, MeshError, MeshFormat, TriangleMesh};
 
 /// Writes a mesh. Attributes have no place in STL and are left out.
 ///
@@ -12,7 +12,15 @@ use crate::{MeshError, MeshFormat, TriangleMesh};
 /// # Errors
 ///
 /// [`MeshError::TooLargeForFormat`] or [`MeshError::Io`].
-pub(crate) fn write(mesh: &TriangleMesh, out: &mut dyn Write) -> Result<(), MeshError> {
+pub(crate) fn write(
+    mesh: &TriangleMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
+    for attribute in &mesh.attributes {
+        let id = report.named(Kind::Attribute, &attribute.name);
+        report.leave_out(id, "STL has no values at vertices");
+    }
     if mesh.origin == [0.0; 3] { write_binary(mesh, out) } else { write_text(mesh, out) }
 }
 
@@ -73,7 +81,7 @@ mod tests {
             ..TriangleMesh::default()
         };
         let mut bytes = Vec::new();
-        write(&mesh, &mut bytes).unwrap();
+        write(&mesh, &mut bytes, &mut FileReport::new(MeshFormat::Stl)).unwrap();
         let (again, _) = read(&bytes).unwrap();
         for vertex in 0..3 {
             let (a, b) = (mesh.point(vertex), again.point(vertex));

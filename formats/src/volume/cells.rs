@@ -1,7 +1,7 @@
 //! Cells of any kind on their way to tetrahedra.
 
-use super::VolumeReport;
 use super::coning::{HEXAHEDRON, PRISM, PYRAMID, VOXEL, cone};
+use crate::FileReport;
 use crate::error::{MeshError, Place};
 
 /// What a cell is, whatever the format calls it.
@@ -47,7 +47,7 @@ impl Cells {
         nodes: &[u32],
         n_points: usize,
         place: Place,
-        report: &mut VolumeReport,
+        report: &mut FileReport,
     ) -> Result<(), MeshError> {
         if kind == CellKind::Flat {
             report.n_cells_ignored += 1;

@@ -6,11 +6,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{VolumeReport, gmsh, medit, meshb, plot3d, tetgen, vtk, vtu};
+use super::{gmsh, medit, meshb, plot3d, tetgen, vtk, vtu};
 use crate::error::Place;
 use crate::input::read_input;
 use crate::publish::publish;
-use crate::{MeshError, TetrahedronMesh};
+use crate::{FileReport, Kind, MeshError, TetrahedronMesh};
 
 /// A volume file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -102,7 +102,7 @@ impl fmt::Display for VolumeFormat {
 /// # Errors
 ///
 /// [`MeshError::InFile`] with the file's name and the error inside.
-pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let path = path.as_ref();
     let read = || {
         let bytes = read_input(path)?;
@@ -127,7 +127,7 @@ pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, VolumeRep
 pub fn read_volume_bytes(
     bytes: &[u8],
     format: VolumeFormat,
-) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     match format {
         VolumeFormat::Vtu => vtu::read(bytes),
         VolumeFormat::Vtk => vtk::read(bytes),
@@ -150,7 +150,7 @@ pub fn read_volume_bytes(
 pub fn read_plot3d(
     grid: impl AsRef<Path>,
     solutions: &[impl AsRef<Path>],
-) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let read = |path: &Path| read_input(path).map_err(|error| MeshError::from(error).in_file(path));
     let bytes = read(grid.as_ref())?;
     let solutions: Vec<Vec<u8>> =
@@ -160,12 +160,13 @@ pub fn read_plot3d(
 }
 
 /// Writes a volume in the format that the path's extension names. The file appears whole or not at all.
+/// The report tells what the format has no place for.
 ///
 /// # Errors
 ///
 /// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`], [`MeshError::InconsistentMesh`] or
 /// [`MeshError::Io`].
-pub fn write_volume(path: impl AsRef<Path>, mesh: &TetrahedronMesh) -> Result<(), MeshError> {
+pub fn write_volume(path: impl AsRef<Path>, mesh: &TetrahedronMesh) -> Result<FileReport, MeshError> {
     let path = path.as_ref();
     let write = || {
         let Some(format) = VolumeFormat::from_path(path).filter(|format| format.is_written()) else {
@@ -186,13 +187,15 @@ pub fn write_volume_to(
     out: &mut dyn Write,
     mesh: &TetrahedronMesh,
     format: VolumeFormat,
-) -> Result<(), MeshError> {
+) -> Result<FileReport, MeshError> {
     mesh.check()?;
+    let mut report = FileReport::of_attributes(format, Kind::Field, &mesh.attributes);
     match format {
-        VolumeFormat::Vtu => vtu::write(mesh, out),
-        VolumeFormat::Vtk => vtk::write(mesh, out),
+        VolumeFormat::Vtu => vtu::write(mesh, out, &mut report)?,
+        VolumeFormat::Vtk => vtk::write(mesh, out, &mut report)?,
         VolumeFormat::Gmsh | VolumeFormat::Medit | VolumeFormat::Tetgen | VolumeFormat::Plot3d => {
-            Err(MeshError::UnknownVolumeExtension { extension: format.extensions()[0].into() })
+            return Err(MeshError::UnknownVolumeExtension { extension: format.extensions()[0].into() });
         }
     }
+    Ok(report)
 }

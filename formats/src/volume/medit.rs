@@ -7,16 +7,16 @@ use super::pending::{Fields, Points, finish};
 use super::words::{count, integer};
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style};
-use crate::{TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
 /// Reads a MEDIT file. References of vertices and elements are left out; second-order and surface elements are counted.
 ///
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let mut scanner = Scanner::new(bytes, Style { hash_comments: true, continued_lines: false });
-    let mut report = VolumeReport::new(VolumeFormat::Medit);
+    let mut report = FileReport::new(VolumeFormat::Medit);
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut elements: Vec<(CellKind, [u32; 8], Place)> = Vec::new();
     let mut has_references = false;
@@ -68,8 +68,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), Mesh
         }
     }
     if has_references {
-        let name = "references".to_owned();
-        report.warnings.push(VolumeWarning::DataIgnored { kind: "element data", name });
+        report.found(Kind::References, "references");
     }
     let mut cells = Cells::default();
     for (kind, corners, place) in elements {
@@ -79,7 +78,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), Mesh
 }
 
 /// Skips a section that has no part in a volume: a count and as many lines.
-fn skip_lines(keyword: &[u8], scanner: &mut Scanner<'_>, report: &mut VolumeReport) -> Result<(), MeshError> {
+fn skip_lines(keyword: &[u8], scanner: &mut Scanner<'_>, report: &mut FileReport) -> Result<(), MeshError> {
     let n = count(scanner, "lines")?;
     if matches!(keyword, b"Triangles" | b"Quadrilaterals" | b"Edges") {
         report.n_cells_ignored += n;

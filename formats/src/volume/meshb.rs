@@ -9,7 +9,7 @@ use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::scalars::{NumberType, Numbers};
 use crate::error::{MeshError, Place};
-use crate::{ScalarType, TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 
 /// The first number of a file in the byte order of the machine that wrote it.
 const ONE: u32 = 1;
@@ -29,11 +29,11 @@ pub(super) fn is_meshb(bytes: &[u8]) -> bool {
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let is_big_endian = bytes.first() == Some(&0);
     let mut reader = Reader { bytes, at: 4, is_big_endian, version: 0 };
     reader.version = reader.unsigned(4)?;
-    let mut report = VolumeReport::new(VolumeFormat::Medit);
+    let mut report = FileReport::new(VolumeFormat::Medit);
     let mut points = Numbers { number: reader.real(), bytes: Vec::new() };
     let mut elements: Vec<(CellKind, usize, usize)> = Vec::new();
     // Offsets only ever lead forward, so that the file is passed over once.
@@ -168,12 +168,7 @@ impl Reader<'_> {
     }
 
     /// Coordinates of `n` vertices, whose bytes the file has.
-    fn vertices(
-        &mut self,
-        n: usize,
-        points: &mut Numbers,
-        report: &mut VolumeReport,
-    ) -> Result<(), MeshError> {
+    fn vertices(&mut self, n: usize, points: &mut Numbers, report: &mut FileReport) -> Result<(), MeshError> {
         let size_bytes = 3 * points.number.size_bytes();
         let mut has_references = false;
         for _ in 0..n {
@@ -183,8 +178,7 @@ impl Reader<'_> {
             has_references |= self.integer()? != 0;
         }
         if has_references {
-            let (kind, name) = ("point data", "references".to_owned());
-            report.warnings.push(VolumeWarning::DataIgnored { kind, name });
+            report.found(Kind::References, "references of vertices");
         }
         Ok(())
     }
@@ -194,7 +188,7 @@ impl Reader<'_> {
         kind: CellKind,
         n: usize,
         n_points: usize,
-        (cells, report): (&mut Cells, &mut VolumeReport),
+        (cells, report): (&mut Cells, &mut FileReport),
     ) -> Result<(), MeshError> {
         let mut has_references = false;
         for element in 0..n {
@@ -216,8 +210,7 @@ impl Reader<'_> {
             cells.push(kind, corners, n_points, Place::item("element", element), report)?;
         }
         if has_references {
-            let (kind, name) = ("element data", "references".to_owned());
-            report.warnings.push(VolumeWarning::DataIgnored { kind, name });
+            report.named(Kind::References, "references");
         }
         Ok(())
     }
@@ -279,7 +272,7 @@ mod tests {
                 let (mesh, report) = read(&bytes).unwrap();
                 assert_eq!(mesh.tetrahedra, [[0, 1, 2, 3], [1, 2, 3, 4]]);
                 assert_eq!(mesh.positions[4], [1.0, 1.0, 0.5]);
-                assert_eq!((report.n_cells_ignored, report.warnings.len()), (1, 1));
+                assert_eq!((report.n_cells_ignored, report.notes().len()), (1, 2));
             }
         }
     }

@@ -8,7 +8,6 @@ mod medit;
 mod meshb;
 mod pending;
 mod plot3d;
-mod report;
 mod scalars;
 mod tetgen;
 mod vtk;
@@ -16,4 +15,3 @@ mod vtu;
 mod words;
 
 pub use format::{VolumeFormat, read_plot3d, read_volume, read_volume_bytes, write_volume, write_volume_to};
-pub use report::{VolumeReport, VolumeWarning};

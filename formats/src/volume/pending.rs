@@ -2,10 +2,10 @@
 
 use super::cells::Cells;
 use super::scalars::{Numbers, points_f32};
-use super::{VolumeReport, VolumeWarning};
 use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
 use crate::distinct::DistinctNames;
-use crate::{Attribute, MeshError, TetrahedronMesh};
+use crate::report::ItemId;
+use crate::{Attribute, Change, FileReport, Kind, MeshError, TetrahedronMesh};
 
 /// Points in the precision of the file.
 pub(super) enum Points {
@@ -45,7 +45,8 @@ impl Points {
 /// Fields in the order found.
 #[derive(Default)]
 pub(super) struct Fields {
-    fields: Vec<Attribute>,
+    /// Each with its place in the report.
+    fields: Vec<(Attribute, ItemId)>,
     names: DistinctNames,
 }
 
@@ -58,29 +59,34 @@ impl Fields {
         n_components: u32,
         numbers: Numbers,
         n_points: usize,
-        report: &mut VolumeReport,
+        report: &mut FileReport,
     ) {
         let found = numbers.len() as u64;
         let per_point = u64::from(n_components);
+        let id = report.found(Kind::Field, name);
         if n_components == 0 || found != n_points as u64 * per_point {
-            let (name, found) = (name.to_owned(), found / per_point.max(1));
-            report.warnings.push(VolumeWarning::FieldLength { name, found, expected: n_points as u64 });
+            report.leave_out(id, wrong_length(found / per_point.max(1), n_points as u64));
             return;
         }
         let name = if name.is_empty() { "field" } else { name };
         // The `.neph` file ends names with a zero byte.
         let new_name = self.names.take(name.replace('\0', "\u{fffd}"));
+        report.keep(id);
         if new_name != name {
-            let (name, new_name) = (name.to_owned(), new_name.clone());
-            report.warnings.push(VolumeWarning::FieldRenamed { name, new_name });
+            report.change(id, Change::Renamed { new_name: new_name.clone() });
         }
         let (scalar, bytes, is_narrowed) = numbers.into_kept();
         if is_narrowed {
             let scalar = if scalar == crate::ScalarType::I32 { "i32" } else { "f64" };
-            report.warnings.push(VolumeWarning::FieldNarrowed { name: new_name.clone(), scalar });
+            report.change(id, Change::Narrowed { scalar });
         }
-        self.fields.push(Attribute { name: new_name, scalar, n_components, bytes });
+        self.fields.push((Attribute { name: new_name, scalar, n_components, bytes }, id));
     }
+}
+
+/// Why a field of another length than the points is left out.
+pub(super) fn wrong_length(found: u64, expected: u64) -> String {
+    format!("it has {found} values for {expected} vertices")
 }
 
 /// Puts the parts of a volume together. Fields that were read for another number of vertices, since the file gives points after
@@ -93,8 +99,8 @@ pub(super) fn finish(
     points: Points,
     cells: Cells,
     fields: Fields,
-    mut report: VolumeReport,
-) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+    mut report: FileReport,
+) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let tetrahedra = cells.into_tetrahedra();
     if tetrahedra.is_empty() {
         return Err(MeshError::NoTetrahedra { n_vertices: points.len() });
@@ -103,12 +109,12 @@ pub(super) fn finish(
     let (attributes, misfits): (Vec<_>, Vec<_>) = fields
         .fields
         .into_iter()
-        .partition(|field| field.bytes.len() == field.stride_bytes() * positions.len());
-    report.warnings.extend(misfits.into_iter().map(|field| VolumeWarning::FieldLength {
-        found: (field.bytes.len() / field.stride_bytes()) as u64,
-        name: field.name,
-        expected: positions.len() as u64,
-    }));
+        .partition(|(field, _)| field.bytes.len() == field.stride_bytes() * positions.len());
+    for (field, id) in misfits {
+        let found = (field.bytes.len() / field.stride_bytes()) as u64;
+        report.leave_out(id, wrong_length(found, positions.len() as u64));
+    }
+    let attributes = attributes.into_iter().map(|(field, _)| field).collect();
     let mesh = TetrahedronMesh { origin, positions, tetrahedra, attributes, rounding };
     Ok((mesh, report))
 }

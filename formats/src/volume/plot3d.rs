@@ -10,7 +10,7 @@ use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::scalars::{NumberType, Numbers};
 use crate::error::{MeshError, Place};
-use crate::{TetrahedronMesh, VolumeFormat, VolumeReport};
+use crate::{FileReport, TetrahedronMesh, VolumeFormat};
 
 /// Five tetrahedra of a hexahedron with VTK's order of vertices, for cells whose indices have an even sum and an odd one.
 const PATTERNS: [[[usize; 4]; 5]; 2] = [
@@ -24,8 +24,8 @@ const PATTERNS: [[[usize; 4]; 5]; 2] = [
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(super) fn read(grid: &[u8], solutions: &[&[u8]]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
-    let mut report = VolumeReport::new(VolumeFormat::Plot3d);
+pub(super) fn read(grid: &[u8], solutions: &[&[u8]]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
+    let mut report = FileReport::new(VolumeFormat::Plot3d);
     let layout = Layout::find(grid, &[(3, false), (3, true)], 0)?;
     let n_points = layout.n_points();
     let coordinates = layout.numbers(grid, 0, 3 * n_points);
@@ -68,7 +68,7 @@ pub(super) fn read(grid: &[u8], solutions: &[&[u8]]) -> Result<(TetrahedronMesh,
 fn cells(
     [ni, nj, nk]: [usize; 3],
     blanks: Option<&[bool]>,
-    report: &mut VolumeReport,
+    report: &mut FileReport,
 ) -> Result<Cells, MeshError> {
     let mut cells = Cells::default();
     let n_points = ni * nj * nk;

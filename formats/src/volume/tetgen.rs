@@ -8,7 +8,7 @@ use super::scalars::{NumberType, Numbers};
 use super::words::{Names, count, integer};
 use crate::error::MeshError;
 use crate::text::{Scanner, Style};
-use crate::{ScalarType, TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 
 /// Reads the contents of the two files. Attributes of vertices are the fields `attribute_1` and on; markers and attributes of
 /// tetrahedra are left out.
@@ -16,8 +16,8 @@ use crate::{ScalarType, TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarni
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(super) fn read(node: &[u8], ele: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
-    let mut report = VolumeReport::new(VolumeFormat::Tetgen);
+pub(super) fn read(node: &[u8], ele: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
+    let mut report = FileReport::new(VolumeFormat::Tetgen);
     let mut names = Names::default();
     let (points, fields) = vertices(node, &mut names, &mut report)?;
     let cells = tetrahedra(ele, &names, &mut report)?;
@@ -31,7 +31,7 @@ fn scanner(bytes: &[u8]) -> Scanner<'_> {
 fn vertices(
     bytes: &[u8],
     names: &mut Names,
-    report: &mut VolumeReport,
+    report: &mut FileReport,
 ) -> Result<(Vec<[f64; 3]>, Fields), MeshError> {
     let mut scanner = scanner(bytes);
     let n = count(&mut scanner, "vertices")?;
@@ -60,7 +60,7 @@ fn vertices(
     Ok((points, fields))
 }
 
-fn tetrahedra(bytes: &[u8], names: &Names, report: &mut VolumeReport) -> Result<Cells, MeshError> {
+fn tetrahedra(bytes: &[u8], names: &Names, report: &mut FileReport) -> Result<Cells, MeshError> {
     let mut scanner = scanner(bytes);
     let n = count(&mut scanner, "tetrahedra")?;
     let n_nodes = integer(&mut scanner)?;
@@ -81,8 +81,7 @@ fn tetrahedra(bytes: &[u8], names: &Names, report: &mut VolumeReport) -> Result<
         cells.push(CellKind::Tetrahedron, &nodes[..n_nodes], names.len(), scanner.place(), report)?;
     }
     if n_attributes > 0 {
-        let name = "attributes of tetrahedra".to_owned();
-        report.warnings.push(VolumeWarning::DataIgnored { kind: "element data", name });
+        report.found(Kind::References, "attributes of tetrahedra");
     }
     Ok(cells)
 }

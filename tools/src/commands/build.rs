@@ -9,7 +9,7 @@ use nephrite::decimate::progressive::ProgressiveOptions;
 use nephrite::progressive_mesh::encode;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
 use nephrite::{Build, BuildOptions, TriangleMesh};
-use nephrite_formats::{ReadReport, VolumeFormat};
+use nephrite_formats::{FileReport, VolumeFormat};
 use serde_json::{Value, json};
 
 use super::build_volume::{FusionArguments, Request};
@@ -318,7 +318,7 @@ fn name(choice: &impl serde::Serialize) -> String {
 /// A build that is done.
 struct Outcome {
     input: Input,
-    read: ReadReport,
+    read: FileReport,
     build: Build,
     stored: StoreReport,
     seconds: f64,
@@ -337,6 +337,7 @@ impl Outcome {
             "seconds": self.seconds,
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
+            "notes": self.read.notes(),
             "repairs": self.build.repairs,
             "dropped_distance": self.build.dropped_distance,
             "certified_triangles": self.build.n_certified_triangles(),
@@ -364,7 +365,7 @@ impl Outcome {
         };
         let list = figures::list(&[
             ("mesh", size(input.n_triangles, input.n_vertices)),
-            ("read", figures::tally(&json!(self.read))),
+            ("read", figures::reading(&self.read)),
             ("repaired", self.repaired()),
             (
                 "levels",

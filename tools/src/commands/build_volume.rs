@@ -8,7 +8,7 @@ use clap::Args;
 use nephrite::decimate::fusion::FusionOptions;
 use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
 use nephrite::{TetrahedronMesh, VolumeBuild, VolumeOptions};
-use nephrite_formats::VolumeReport;
+use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 
 use super::build::{number, part};
@@ -128,7 +128,7 @@ impl Request<'_> {
 struct Outcome {
     /// Tetrahedra and vertices of the input.
     sizes: [usize; 2],
-    read: VolumeReport,
+    read: FileReport,
     build: VolumeBuild,
     stored: StoreReport,
     bounding_diagonal: f64,
@@ -179,6 +179,7 @@ impl Outcome {
             "seconds": self.seconds[1],
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
+            "notes": self.read.notes(),
             "repairs": self.build.repairs,
         })
     }
@@ -191,7 +192,7 @@ impl Outcome {
         let [per_tetrahedron, per_fusion] = self.per_fusion();
         let list = figures::list(&[
             ("volume", size(self.sizes[0], self.sizes[1])),
-            ("read", figures::tally(&json!(self.read))),
+            ("read", figures::reading(&self.read)),
             ("repaired", figures::tally(&json!(build.repairs))),
             (
                 "fusions",

@@ -15,7 +15,7 @@ use nephrite::TriangleMesh;
 use nephrite::history::{History, Levels};
 use nephrite::query::{CurvePoint, Simplex};
 use nephrite::store::check_attributes;
-use nephrite_formats::{MeshFormat, VolumeFormat, neph, read_input};
+use nephrite_formats::{FileReport, MeshFormat, VolumeFormat, neph, read_input};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -171,7 +171,7 @@ fn build_one(arguments: &Arguments, bytes: Vec<u8>) -> Result<Value, Failure> {
         return build_volume(arguments);
     }
     let start = Instant::now();
-    let mesh = read_part(arguments.mesh(), bytes)?;
+    let (mesh, read) = read_part(arguments.mesh(), bytes)?;
     check_attributes(&mesh).map_err(|source| Failure::file(arguments.mesh(), source))?;
     let input = Input::of(&mesh);
     let go_on = |_: &nephrite::Progress| {
@@ -188,21 +188,22 @@ fn build_one(arguments: &Arguments, bytes: Vec<u8>) -> Result<Value, Failure> {
         "coarsest_triangles": stored.n_coarsest,
         "file_bytes": stored.file_bytes,
         "curve": curve(arguments, &build.history)?,
+        "notes": read.notes(),
         "seconds": start.elapsed().as_secs_f64(),
     }))
 }
 
 /// The mesh of a part from its bytes, which are let go; glTF may refer to other files and is read from its place.
-fn read_part(part: &Path, bytes: Vec<u8>) -> Result<TriangleMesh, Failure> {
+fn read_part(part: &Path, bytes: Vec<u8>) -> Result<(TriangleMesh, FileReport), Failure> {
     let format = MeshFormat::detect(&bytes, MeshFormat::from_path(part));
-    let (mesh, _) = match format.filter(|&format| format != MeshFormat::Gltf) {
+    let read = match format.filter(|&format| format != MeshFormat::Gltf) {
         Some(format) => {
             nephrite_formats::read_mesh_bytes(&bytes, format).map_err(|error| error.in_file(part))?
         }
         None => nephrite_formats::read_mesh(part)?,
     };
     drop(bytes);
-    Ok(mesh)
+    Ok(read)
 }
 
 /// Some levels of the file that was made of this history.

@@ -7,7 +7,7 @@ use clap::Args;
 use nephrite::query::{INFLECTION_RATIO, QueryError, Simplex};
 use nephrite::volume::Plane;
 use nephrite::{Cut, Lod, TetrahedronMesh, TriangleMesh};
-use nephrite_formats::MeshError;
+use nephrite_formats::{FileReport, MeshError};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
@@ -120,7 +120,7 @@ impl Part {
         })
     }
 
-    fn write(&self, output: &Path) -> Result<(), MeshError> {
+    fn write(&self, output: &Path) -> Result<FileReport, MeshError> {
         match self {
             Self::Surface(mesh) => nephrite_formats::write_mesh(output, mesh),
             Self::Volume(mesh) => nephrite_formats::write_volume(output, mesh),
@@ -154,18 +154,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let cut = selector.cut(file, &lod)?;
     let part = Part::of(&cut, arguments).map_err(|source| Failure::file(file, source))?;
     interrupt::check()?;
-    part.write(output)?;
+    let notes = part.write(output)?.notes();
     let seconds = start.elapsed();
     let (n_simplices, n_vertices, simplex) = part.sizes();
     Ok(Report {
         text: format!(
-            "{}: {}, {} vertices, error {}, level {}, {}\n",
+            "{}: {}, {} vertices, error {}, level {}, {}\n{}",
             output.display(),
             figures::simplices(n_simplices, simplex),
             figures::count(n_vertices),
             figures::error(cut.error(), lod.bounding_diagonal()),
             cut.level(),
-            figures::time(seconds)
+            figures::time(seconds),
+            notes.iter().map(|note| format!("  {note}\n")).collect::<String>()
         ),
         json: json!({
             (simplex.to_string()): n_simplices,
@@ -176,6 +177,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             "runs": cut.n_runs(),
             "bounding_diagonal": lod.bounding_diagonal(),
             "seconds": seconds.as_secs_f64(),
+            "notes": notes,
         }),
     })
 }

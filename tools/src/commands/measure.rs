@@ -124,11 +124,21 @@ struct Inputs {
 impl Inputs {
     fn read([reference, mesh]: [&Path; 2]) -> Result<Self, Failure> {
         if !files::is_volume(reference) || !files::is_volume(mesh) {
-            let (reference, mesh) = rayon::join(|| files::read_mesh(reference), || files::read_mesh(mesh));
-            let surfaces = [reference?.0, mesh?.0];
+            let read = |path: &Path| {
+                let (mesh, report) = files::read_mesh(path)?;
+                files::tell(path, &report);
+                Ok::<_, Failure>(mesh)
+            };
+            let (reference, mesh) = rayon::join(|| read(reference), || read(mesh));
+            let surfaces = [reference?, mesh?];
             return Ok(Self { surfaces, fields: Vec::new(), volumes: None });
         }
-        let volumes = [files::read_volume(reference, &[])?.0, files::read_volume(mesh, &[])?.0];
+        let read = |path: &Path| {
+            let (mesh, report) = files::read_volume(path, &[])?;
+            files::tell(path, &report);
+            Ok::<_, Failure>(mesh)
+        };
+        let volumes = [read(reference)?, read(mesh)?];
         Ok(Self {
             surfaces: [nephrite::volume::boundary(&volumes[0]), nephrite::volume::boundary(&volumes[1])],
             fields: measure::measure_fields(&volumes[0], &volumes[1]),

@@ -9,11 +9,11 @@ mod element;
 mod source;
 
 use super::cells::{CellKind, Cells};
-use super::pending::{Fields, Points, finish};
+use super::pending::{Fields, Points, finish, wrong_length};
 use super::scalars::{NumberType, Numbers};
 use super::words::Names;
 use crate::error::MeshError;
-use crate::{ScalarType, TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 use element::ElementType;
 use source::Source;
 
@@ -22,10 +22,10 @@ use source::Source;
 /// # Errors
 ///
 /// Any [`MeshError`] about contents; [`MeshError::Unsupported`] for other versions.
-pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let mut reader = Reader {
         source: Source::new(bytes),
-        report: VolumeReport::new(VolumeFormat::Gmsh),
+        report: FileReport::new(VolumeFormat::Gmsh),
         is_version_4: false,
         names: Names::default(),
         points: Vec::new(),
@@ -42,7 +42,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), Mesh
 
 struct Reader<'a> {
     source: Source<'a>,
-    report: VolumeReport,
+    report: FileReport,
     is_version_4: bool,
     names: Names,
     points: Vec<[f64; 3]>,
@@ -246,7 +246,8 @@ impl Reader<'_> {
         let n_given = is_given.iter().filter(|&&is_given| is_given).count();
         if !is_kept || n_given < n_points {
             let found = if is_kept { n_given as u64 } else { u64::try_from(n_values).unwrap_or(0) };
-            self.report.warnings.push(VolumeWarning::FieldLength { name, found, expected: n_points as u64 });
+            let id = self.report.found(Kind::Field, &name);
+            self.report.leave_out(id, wrong_length(found, n_points as u64));
             return Ok(());
         }
         let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
@@ -261,7 +262,7 @@ impl Reader<'_> {
         let end = [b"$End", &word[1..]].concat();
         if !matches!(word, b"$PhysicalNames" | b"$Entities" | b"$PartitionedEntities" | b"$Comments") {
             let name = String::from_utf8_lossy(&word[1..]).into_owned();
-            self.report.warnings.push(VolumeWarning::DataIgnored { kind: "section", name });
+            self.report.named(Kind::Section, &name);
         }
         self.source.pass(&end);
     }
@@ -366,7 +367,7 @@ mod tests {
                 assert_eq!(mesh.tetrahedra, [[0, 1, 2, 3], [1, 2, 3, 4]]);
                 assert_eq!(mesh.positions[4], [1.0, 1.0, 0.5]);
                 assert_eq!(mesh.attributes[0].values().collect::<Vec<_>>(), [1.0, 2.0, 3.0, 4.0, 5.0]);
-                assert_eq!((report.n_cells_ignored, report.warnings.len()), (0, 0));
+                assert_eq!((report.n_cells_ignored, report.notes().len()), (0, 0));
             }
         }
     }

@@ -6,14 +6,14 @@ use crate::error::{MeshError, Place};
 use crate::volume::cells::Cells;
 use crate::volume::pending::{Fields, Points, finish};
 use crate::volume::scalars::{NumberType, Numbers};
-use crate::{ScalarType, TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 
 /// Reads a legacy VTK file.
 ///
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let mut source = Source::new(bytes)?;
     let word = source.word();
     if !word.is_some_and(|word| word.eq_ignore_ascii_case(b"dataset")) {
@@ -25,7 +25,7 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeRe
     }
     let mut reader = Reader {
         source,
-        report: VolumeReport::new(VolumeFormat::Vtk),
+        report: FileReport::new(VolumeFormat::Vtk),
         points: None,
         nodes: Nodes::default(),
         types: None,
@@ -55,7 +55,7 @@ struct Nodes {
 
 struct Reader<'a> {
     source: Source<'a>,
-    report: VolumeReport,
+    report: FileReport,
     points: Option<Points>,
     nodes: Nodes,
     types: Option<Numbers>,
@@ -240,13 +240,13 @@ impl Reader<'_> {
                 let n_points = self.points.as_ref().map_or(n_points, Points::len);
                 return self.fields.push(name, n_components, numbers, n_points, &mut self.report);
             }
-            Belongs::Cells(_) => "cell data",
-            Belongs::Nothing => "field data",
+            Belongs::Cells(_) => Kind::CellData,
+            Belongs::Nothing => Kind::FieldData,
         };
-        self.report.warnings.push(VolumeWarning::DataIgnored { kind, name: name.to_owned() });
+        self.report.found(kind, name);
     }
 
-    fn finish(mut self) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+    fn finish(mut self) -> Result<(TetrahedronMesh, FileReport), MeshError> {
         let missing = |what| MeshError::Missing { place: Place::File, what };
         let points = self.points.ok_or_else(|| missing("points"))?;
         let types = self.types.ok_or_else(|| missing("cell types"))?;

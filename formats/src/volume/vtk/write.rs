@@ -3,14 +3,18 @@
 use std::io::Write;
 
 use super::cell_type::TETRAHEDRON;
-use crate::{Attribute, MeshError, ScalarType, TetrahedronMesh};
+use crate::{Attribute, FileReport, Kind, MeshError, ScalarType, TetrahedronMesh};
 
 /// Writes a mesh in file coordinates: `f32` where the origin is zero, `f64` otherwise.
 ///
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(in crate::volume) fn write(mesh: &TetrahedronMesh, out: &mut dyn Write) -> Result<(), MeshError> {
+pub(in crate::volume) fn write(
+    mesh: &TetrahedronMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
     let (n_points, n_cells) = (mesh.positions.len(), mesh.tetrahedra.len());
     let is_shifted = mesh.origin != [0.0; 3];
     let name = if is_shifted { "double" } else { "float" };
@@ -42,6 +46,8 @@ pub(in crate::volume) fn write(mesh: &TetrahedronMesh, out: &mut dyn Write) -> R
     }
     for attribute in &mesh.attributes {
         write_field(attribute, n_points, out)?;
+        let id = report.named(Kind::Field, &attribute.name);
+        report.keep(id);
     }
     Ok(())
 }

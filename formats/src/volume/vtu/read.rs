@@ -10,7 +10,7 @@ use crate::volume::cells::Cells;
 use crate::volume::pending::{Fields, Points, finish};
 use crate::volume::scalars::Numbers;
 use crate::volume::vtk::kind_of;
-use crate::{TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
+use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
 /// Reads a VTU file. Of several pieces the points are numbered on, and a field is taken where every piece has it with as many components
 /// of one type. Pieces that have neither points nor cells say nothing, whatever else they have or lack.
@@ -18,7 +18,7 @@ use crate::{TetrahedronMesh, VolumeFormat, VolumeReport, VolumeWarning};
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeReport), MeshError> {
+pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let (xml, appended) = split_appended(bytes);
     let place = Place::Part("XML");
     let xml = std::str::from_utf8(&xml).map_err(|_| MeshError::Unexpected {
@@ -38,7 +38,7 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, VolumeRe
     }
     let encoding = encoding(root, appended)?;
     let grid = child(root, "UnstructuredGrid")?;
-    let mut report = VolumeReport::new(VolumeFormat::Vtu);
+    let mut report = FileReport::new(VolumeFormat::Vtu);
     let mut whole: Option<Piece> = None;
     for node in grid.children().filter(|node| node.has_tag_name("Piece") && !is_bare(*node)) {
         let n_before = whole.as_ref().map_or(0, |whole| whole.points.len());
@@ -116,7 +116,7 @@ struct Field {
 
 impl Piece {
     /// Adds the next piece, whose cells count their points on from this one's already.
-    fn join(mut self, next: Self, report: &mut VolumeReport) -> Result<Self, MeshError> {
+    fn join(mut self, next: Self, report: &mut FileReport) -> Result<Self, MeshError> {
         if self.points.number != next.points.number {
             return Err(unsupported("pieces with points of different types".to_owned()));
         }
@@ -129,8 +129,9 @@ impl Piece {
         let n_before = self.points.len() - next.points.len();
         let (mut others, unfit): (Vec<Field>, Vec<Field>) =
             next.fields.into_iter().partition(|field| fits(field, next.points.len()));
-        let mut leave_out = |name| {
-            report.warnings.push(VolumeWarning::DataIgnored { kind: "point data of some pieces", name });
+        let mut leave_out = |name: String| {
+            let id = report.found(Kind::Field, &name);
+            report.leave_out(id, "not every piece has it in the same form");
         };
         self.fields.retain_mut(|field| {
             let fits_before = fits(field, n_before);
@@ -166,7 +167,7 @@ fn read_piece(
     piece: Node<'_, '_>,
     encoding: &Encoding<'_>,
     n_numbers_before: usize,
-    report: &mut VolumeReport,
+    report: &mut FileReport,
 ) -> Result<Piece, MeshError> {
     let coordinates = arrays(child(piece, "Points")?).next();
     let coordinates =
@@ -187,16 +188,16 @@ fn read_piece(
                     fields.push(Field { name, n_components: n_components.unwrap_or(0), numbers });
                 }
                 Err(MeshError::Unsupported { .. }) => {
-                    report.warnings.push(VolumeWarning::DataIgnored { kind: "point data", name });
+                    report.found(Kind::Field, &name);
                 }
                 Err(error) => return Err(error),
             }
         }
     }
-    for (part, kind) in [("CellData", "cell data"), ("FieldData", "field data")] {
+    for (part, kind) in [("CellData", Kind::CellData), ("FieldData", Kind::FieldData)] {
         for array in child(piece, part).into_iter().flat_map(arrays) {
             let name = array.attribute("Name").unwrap_or("").to_owned();
-            report.warnings.push(VolumeWarning::DataIgnored { kind, name });
+            report.found(kind, &name);
         }
     }
     Ok(Piece { points, is_text, cells, fields })
@@ -207,7 +208,7 @@ fn read_cells(
     piece: Node<'_, '_>,
     encoding: &Encoding<'_>,
     [n_before, n_points]: [usize; 2],
-    report: &mut VolumeReport,
+    report: &mut FileReport,
 ) -> Result<Cells, MeshError> {
     let node = child(piece, "Cells")?;
     let named = |name: &'static str| -> Result<Numbers, MeshError> {

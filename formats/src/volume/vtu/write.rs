@@ -3,14 +3,18 @@
 use std::io::Write;
 
 use crate::volume::vtk::TETRAHEDRON;
-use crate::{MeshError, ScalarType, TetrahedronMesh};
+use crate::{FileReport, Kind, MeshError, ScalarType, TetrahedronMesh};
 
 /// Writes a mesh in file coordinates: `f32` where the origin is zero, `f64` otherwise.
 ///
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(in crate::volume) fn write(mesh: &TetrahedronMesh, out: &mut dyn Write) -> Result<(), MeshError> {
+pub(in crate::volume) fn write(
+    mesh: &TetrahedronMesh,
+    out: &mut dyn Write,
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
     let (n_points, n_cells) = (mesh.positions.len(), mesh.tetrahedra.len());
     let is_shifted = mesh.origin != [0.0; 3];
     let (point_type, point_bytes) = if is_shifted { ("Float64", 24) } else { ("Float32", 12) };
@@ -39,6 +43,8 @@ pub(in crate::volume) fn write(mesh: &TetrahedronMesh, out: &mut dyn Write) -> R
         let shape = if n == 1 { String::new() } else { format!(" NumberOfComponents=\"{n}\"") };
         let head = format!("type=\"{}\" Name=\"{name}\"{shape}", type_name(attribute.scalar));
         out.write_all(array(head, attribute.bytes.len()).as_bytes())?;
+        let id = report.named(Kind::Field, &attribute.name);
+        report.keep(id);
     }
     write!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_")?;
     write_data(mesh, is_shifted, out)?;
