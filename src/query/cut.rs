@@ -5,7 +5,8 @@ use super::{Lod, QueryError};
 use crate::tree::Runs;
 use nephrite_formats::TriangleMesh;
 
-/// The mesh at one level: a few runs of the index buffer and a prefix of the vertex buffer. Copying it copies two words.
+/// The mesh at one level: a few runs of the index buffer and a prefix of the vertex buffer. It is
+/// two words long and freely copied.
 ///
 /// ```no_run
 /// # let lod = nephrite::Lod::open("bunny.neph")?;
@@ -43,8 +44,9 @@ impl<'a> Cut<'a> {
         self.lod.errors()[self.level as usize]
     }
 
-    /// The triangles as contiguous ranges of slots, ascending and without overlap. At most one per height of the interval
-    /// tree, `bit length of (n_levels - 1) + 1`. Cost: about three cache lines.
+    /// The simplices of the level as contiguous ranges of slots, ascending and without overlap.
+    /// There is at most one per height of the interval tree: `bit length of (n_levels - 1) + 1`.
+    /// Cost: about three cache lines.
     pub fn runs(&self) -> Runs<'a> {
         self.lod.file().tree().stab(self.level)
     }
@@ -59,20 +61,21 @@ impl<'a> Cut<'a> {
         self.runs().map(|run| run.len as usize).sum()
     }
 
-    /// Vertex indices in all runs: what [`extract_into`](Self::extract_into) writes.
+    /// Vertex indices in all runs: the number that [`extract_into`](Self::extract_into) writes.
     pub fn n_indices(&self) -> usize {
         self.n_simplices() * self.lod.n_corners() as usize
     }
 
-    /// Length of the prefix of [`Lod::vertices`] that holds the vertices of the level: what a vertex buffer needs, and the
-    /// limit of every index. In a file with [births](Lod::vertex_births) the prefix also holds vertices that only coarser
-    /// levels use.
+    /// Length of the prefix of [`Lod::vertices`] that holds the vertices of the level. Every index
+    /// of the level is below it. In a file with [births](Lod::vertex_births) the prefix also holds
+    /// vertices that only coarser levels use.
     pub fn vertex_count(&self) -> usize {
         let stated = self.lod.file().vertex_counts()[self.level as usize] as usize;
         stated.min(self.lod.vertices().len())
     }
 
-    /// Vertices of the level: those of the prefix that are born. Cost: none without births, otherwise one pass over the prefix.
+    /// Vertices of the level: those of the prefix that are born. Cost: O(1) in a file without
+    /// births, otherwise one pass over the prefix.
     pub fn n_vertices(&self) -> usize {
         let births = self.lod.vertex_births();
         let prefix = births.get(..self.vertex_count()).unwrap_or(&[]);
@@ -84,13 +87,13 @@ impl<'a> Cut<'a> {
         &self.lod.vertices()[..self.vertex_count()]
     }
 
-    /// The level as a mesh of its own, attributes included, without vertices that no triangle uses. Every index and every
-    /// position is checked.
+    /// The level as a mesh of its own, with attributes and without vertices that no triangle uses.
+    /// Every index and every position is checked.
     ///
     /// # Errors
     ///
-    /// [`QueryError::NotTriangles`] for a file of other simplices; [`QueryError::VertexIndex`] and [`QueryError::Position`] for
-    /// a damaged file.
+    /// [`QueryError::NotTriangles`] for a file of other simplices; [`QueryError::VertexIndex`] and
+    /// [`QueryError::Position`] for a damaged file.
     pub fn to_mesh(&self) -> Result<TriangleMesh, QueryError> {
         if self.lod.n_corners() != 3 {
             return Err(QueryError::NotTriangles { found: self.lod.n_corners() });

@@ -3,13 +3,15 @@
 use super::{Cut, Lod};
 use crate::tree::Difference;
 
-/// The triangles that leave and those that enter on the way from one level to another, for whoever keeps something per
-/// triangle: a stream, a collision structure, an acceleration structure for rays.
+/// The triangles that leave and those that enter on the way from one level to another. It is for
+/// callers who keep something per triangle: a stream, a collision structure, an acceleration
+/// structure for rays.
 ///
-/// Both are runs of slots whose triangles are read from [`Lod::indices`]. Triangles of both levels are in neither. A triangle
-/// that is stored twice may be named here by another slot than by a cut: go by its vertex indices, which are the same. In a file
-/// written in windows ([`StoreOptions::window_levels`](crate::store::StoreOptions::window_levels)) every triangle leaves at the
-/// border of a window, and those that stay enter again: take out what leaves first.
+/// Both are runs of slots whose triangles are read from [`Lod::indices`]. A triangle of both levels
+/// is in neither. A triangle that is stored twice may have another slot here than in a cut, so
+/// compare vertex indices, not slots. In a file written in windows
+/// ([`StoreOptions::window_levels`](crate::store::StoreOptions::window_levels)) every triangle
+/// leaves at the border of a window, and those that stay enter again: take out what leaves first.
 ///
 /// ```no_run
 /// # let lod = nephrite::Lod::open("bunny.neph")?;
@@ -42,13 +44,15 @@ impl<'a> Delta<'a> {
 
     /// Triangles of the level before that the level after does not have.
     ///
-    /// Between neighbouring levels at most one run per height of the interval tree, and time that does not depend on the
-    /// number of triangles. Between others, time proportional at most to the triangles born or dead between the two.
+    /// Cost between neighbouring levels: at most one run per height of the interval tree, and time
+    /// that does not depend on the number of triangles. Between other levels, at most linear in the
+    /// triangles that are born or die between the two.
     pub fn leaving(&self) -> Difference<'a> {
         only_at(self.from, self.to)
     }
 
-    /// Triangles of the level after that the level before does not have. Cost: as [`leaving`](Self::leaving).
+    /// Triangles of the level after that the level before does not have. Cost: as
+    /// [`leaving`](Self::leaving).
     pub fn entering(&self) -> Difference<'a> {
         only_at(self.to, self.from)
     }
@@ -60,8 +64,8 @@ fn only_at<'a>(cut: Cut<'a>, other: Cut<'a>) -> Difference<'a> {
 }
 
 impl Lod {
-    /// The change from level `from` to level `to`, in either direction; the coarsest level where there is no such level.
-    /// Nothing is allocated.
+    /// The change from level `from` to level `to`, in either direction. A level that does not exist
+    /// is the coarsest one. Allocates nothing.
     pub fn delta(&self, from: u32, to: u32) -> Delta<'_> {
         Delta { from: self.at_level(from), to: self.at_level(to) }
     }

@@ -1,4 +1,4 @@
-//! What a query can refuse.
+//! Why a query has no answer.
 
 /// A cut cannot be handed out in the form asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

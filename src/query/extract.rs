@@ -8,11 +8,12 @@ use rayon::prelude::*;
 const TASK_LEN: usize = 1 << 16;
 
 impl Cut<'_> {
-    /// Copies the vertex indices of all triangles to the front of `indices` and gives their number,
-    /// [`n_indices`](Self::n_indices). One `memcpy` per run, nothing per triangle.
+    /// Copies the vertex indices of all simplices to the front of `indices` and returns their
+    /// number, [`n_indices`](Self::n_indices). Cost: one `memcpy` per run.
     ///
-    /// Indices are handed on as the file has them: each is below [`vertex_count`](Self::vertex_count) in a file that
-    /// [`Lod::verify`](super::Lod::verify) accepts. [`to_mesh`](Self::to_mesh) checks them.
+    /// Indices are copied as the file has them. In a file that [`Lod::verify`](super::Lod::verify)
+    /// accepts, each is below [`vertex_count`](Self::vertex_count); [`to_mesh`](Self::to_mesh)
+    /// checks them.
     ///
     /// # Errors
     ///
@@ -21,7 +22,8 @@ impl Cut<'_> {
         self.copy_runs(indices, |target, source| target.copy_from_slice(source))
     }
 
-    /// [`extract_into`](Self::extract_into) on all threads of the current rayon pool; worth it beyond some 100,000 triangles.
+    /// [`extract_into`](Self::extract_into) on all threads of the current rayon pool. It pays above
+    /// some 100,000 triangles.
     ///
     /// # Errors
     ///
@@ -33,14 +35,17 @@ impl Cut<'_> {
         })
     }
 
-    /// [`extract_into`](Self::extract_into) in an order that suits the vertex cache of a graphics processor, for callers that
-    /// copy anyway and draw the copy often: some 0.7 misses per triangle, where a cut drawn as runs has 1.1 to 2.
+    /// [`extract_into`](Self::extract_into) in an order for the vertex cache of a graphics
+    /// processor: some 0.7 misses per triangle, where a cut drawn as runs has 1.1 to 2. It is for
+    /// callers who draw the copy often.
     ///
-    /// Slower than a plain copy by orders of magnitude, and about 60 bytes per triangle are allocated for as long as it runs.
+    /// It is slower than a plain copy by orders of magnitude, and allocates about 60 bytes per
+    /// triangle while it runs.
     ///
     /// # Errors
     ///
-    /// [`QueryError::BufferTooSmall`], [`QueryError::NotTriangles`], and for a damaged file [`QueryError::VertexIndex`].
+    /// [`QueryError::BufferTooSmall`], [`QueryError::NotTriangles`], and for a damaged file
+    /// [`QueryError::VertexIndex`].
     pub fn extract_ordered_into(&self, indices: &mut [u32]) -> Result<usize, QueryError> {
         if self.lod().n_corners() != 3 {
             return Err(QueryError::NotTriangles { found: self.lod().n_corners() });
@@ -48,7 +53,7 @@ impl Cut<'_> {
         let n_indices = self.extract_into(indices)?;
         let (triangles, _) = indices[..n_indices].as_chunks_mut::<3>();
         self.check_indices(triangles.as_flattened())?;
-        // Of valid indices there is no order only where 2^32 corners are exceeded, and then any will do.
+        // Valid indices have no order only if they exceed 2^32 corners; then any order will do.
         if let Some(order) = FanOrder::new(self.vertex_count()).order(triangles) {
             let in_runs = triangles.to_vec();
             for (triangle, place) in triangles.iter_mut().zip(order) {
@@ -58,8 +63,9 @@ impl Cut<'_> {
         Ok(n_indices)
     }
 
-    /// Average cache miss ratio of the cut drawn as its runs, with a cache of `cache_len` vertices, first in, first out. Looks at
-    /// every triangle. Zero for simplices other than triangles.
+    /// Average cache miss ratio of the cut drawn as runs, with a first-in, first-out cache of
+    /// `cache_len` vertices. 0 for simplices other than triangles. Cost: one pass over the
+    /// triangles.
     pub fn miss_ratio(&self, cache_len: u32) -> f64 {
         if self.lod().n_corners() != 3 {
             return 0.0;

@@ -1,4 +1,4 @@
-//! Geomorphs: where the vertices that leave go, so that a level can flow into a coarser one.
+//! Geomorphs: where vertices that leave move to, so that a level turns smoothly into a coarser one.
 
 use super::patches::Patches;
 use super::{Lod, QueryError};
@@ -9,7 +9,8 @@ use std::ops::Range;
 
 /// Where a vertex that a coarser level no longer has comes to lie on that level.
 ///
-/// Moved from its own position to the landing, the vertex flattens the finer level into the coarser one.
+/// When all such vertices have moved from their positions to their landings, the finer level has
+/// the shape of the coarser one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
     /// A triangle of the coarser level.
@@ -19,17 +20,20 @@ pub struct Landing {
 }
 
 impl Lod {
-    /// Where each vertex that level `fine` has and level `coarse` has not comes to lie on level `coarse`. The vertices are those
-    /// from `at_level(coarse).vertex_count()` up to `at_level(fine).vertex_count()`, in their order; `None` for those among them
-    /// that are born on the way.
+    /// Where each vertex that level `fine` has and level `coarse` does not comes to lie on level
+    /// `coarse`. The vertices are those from `at_level(coarse).vertex_count()` up to
+    /// `at_level(fine).vertex_count()`, in their order. `None` for vertices that are born between
+    /// the two levels, and if triangles vanished without replacement. The list is empty if `coarse`
+    /// is not coarser than `fine`; a level that does not exist is the coarsest one.
     ///
-    /// The nearest triangle of the coarser level may be on another sheet of the surface. A vertex lands instead on the
-    /// nearest one of the triangles that replaced those around it, as the lifetimes tell, and when that triangle is replaced in
-    /// turn on the nearest one of its replacements, level by level. `None` where triangles vanished without replacement.
-    /// None at all if `coarse` is not the coarser one; levels that do not exist are the coarsest.
+    /// The nearest triangle of the coarser level may be on another sheet of the surface. A vertex
+    /// therefore lands on the nearest of the triangles that replaced those around it, as the
+    /// lifetimes tell. When that triangle is replaced in turn, the vertex lands on the nearest of
+    /// its replacements, level by level.
     ///
-    /// Cost: linear in the triangles that change on the way, times their number in a patch, usually a few dozen; memory for
-    /// the vertices and for the largest change between neighbours.
+    /// Cost: linear in the triangles that change between the levels, times their number in a patch,
+    /// usually a few dozen. Memory: for the vertices, and for the largest change between
+    /// neighbouring levels.
     ///
     /// # Errors
     ///
@@ -63,12 +67,12 @@ struct Flights<'a> {
     /// The vertex of the first landing.
     first_vertex: usize,
     landings: Vec<Option<Landing>>,
-    /// Vertices that have landed on a triangle of the level reached.
+    /// Vertices that have landed on a triangle of the level reached so far.
     landed_on: HashMap<[u32; 3], Vec<usize>>,
 }
 
 impl Flights<'_> {
-    /// Goes on to the level after `level`.
+    /// Moves the vertices on to the level after `level`.
     fn pass(&mut self, level: u32) -> Result<(), QueryError> {
         let [before, after] = [level, level + 1].map(|level| self.lod.at_level(level).vertex_count());
         let patches = Patches::between(self.lod, level);
@@ -97,8 +101,8 @@ impl Flights<'_> {
         Ok(())
     }
 
-    /// Vertices that must find a new triangle, each with a leaving one at its place: those that had landed on one that leaves, and those
-    /// that leave now themselves.
+    /// Vertices that need a new triangle, each with a leaving triangle at its place: vertices that
+    /// had landed on a leaving triangle, and vertices that leave now.
     fn taking_off(&mut self, leaving: &[[u32; 3]], vanishing: Range<usize>) -> Vec<(usize, usize)> {
         let mut taking_off = Vec::new();
         let mut is_known = vec![false; vanishing.len()];

@@ -1,14 +1,15 @@
-//! Levels before which the error leaps (W. J. Schroeder, "A topology modifying progressive decimation algorithm", *IEEE
-//! Visualization* 1997, section 4.8).
+//! Levels before which the error leaps (W. J. Schroeder, "A topology modifying progressive
+//! decimation algorithm", *IEEE Visualization* 1997, section 4.8).
 
 use super::{Cut, Lod};
 
-/// Ratio of errors from which a leap counts where nothing else is said; the paper uses 10 to 100.
+/// Default ratio of errors from which a rise counts as a leap; the paper uses 10 to 100.
 pub const INFLECTION_RATIO: f64 = 10.0;
 
 impl Lod {
-    /// The error inflection points (equation 6): levels whose successor has more than `ratio` times their error, in order. The
-    /// first one is usually the last level that looks like the input: the one before the first error that is not zero.
+    /// The error inflection points (equation 6), in order: levels whose successor has more than
+    /// `ratio` times their error. The first one is usually the last level that looks like the
+    /// input, just before the first error above 0.
     ///
     /// ```no_run
     /// # let lod = nephrite::Lod::open("part.neph")?;
@@ -20,19 +21,23 @@ impl Lod {
         (0..).zip(self.errors().windows(2)).filter(move |(_, pair)| leaps(pair)).map(|(level, _)| level)
     }
 
-    /// The inflection point whose reduction is nearest to the one asked for (equation 7), from 0 for the input to 1 for nothing,
-    /// among those with half to twice the triangles. A smooth surface has none there: its error rises a little with every operation. Then
-    /// it is the level in that range before the steepest rise, by the ratio of errors; and the nearest level of all where
-    /// the range holds no level. Cost: one pass over the levels.
+    /// The inflection point whose reduction is nearest to `reduction` (equation 7), from 0 for the
+    /// input to 1 for nothing, among levels with half to twice the triangles.
+    ///
+    /// A smooth surface has no inflection point there, since its error rises a little with every
+    /// operation. Then the answer is the level in that range before the steepest rise, by the ratio
+    /// of errors; or the nearest level of all if the range holds none. Cost: one pass over the
+    /// levels.
     pub fn at_reduction_near_inflection(&self, reduction: f64, ratio: f64) -> Cut<'_> {
         self.at_level(near_inflection(self.errors(), self.file().simplex_counts(), reduction, ratio))
     }
 }
 
-/// Levels within this factor of the count asked for are near.
+/// Levels within this factor of the requested count are near.
 const NEAR: f64 = 2.0;
 
-/// The level that [`Lod::at_reduction_near_inflection`] is at: of errors that never fall, and counts that never rise.
+/// The level of [`Lod::at_reduction_near_inflection`], for errors that never fall and counts that
+/// never rise.
 fn near_inflection(errors: &[f64], counts: &[u32], reduction: f64, ratio: f64) -> u32 {
     let n_in = f64::from(counts.first().copied().unwrap_or(0).max(1));
     let wished = n_in * (1.0 - reduction);
@@ -45,7 +50,7 @@ fn near_inflection(errors: &[f64], counts: &[u32], reduction: f64, ratio: f64) -
         n * NEAR >= wished && n <= wished.max(1.0) * NEAR
     };
     let leaps = |level: &usize| errors[level + 1] > ratio * errors[*level];
-    // A rise from zero counts as an infinite one, no rise at all as none.
+    // A rise from 0 counts as infinite; no rise counts as none.
     let rise = |level: usize| {
         if errors[level + 1] > errors[level] { errors[level + 1] / errors[level] } else { 1.0 }
     };
@@ -63,7 +68,8 @@ fn near_inflection(errors: &[f64], counts: &[u32], reduction: f64, ratio: f64) -
 mod tests {
     use super::*;
 
-    /// A part made by hand: flat until 800 triangles are left, holes that close at 300, a shape that is lost at 40.
+    /// A part made by hand: flat until 800 triangles are left, holes that close at 300, a shape
+    /// that is lost at 40.
     const COUNTS: [u32; 10] = [1000, 900, 800, 600, 400, 300, 200, 100, 40, 0];
     const ERRORS: [f64; 10] = [0.0, 0.0, 0.0, 0.1, 0.12, 0.13, 2.0, 2.5, 3.0, 90.0];
 

@@ -1,8 +1,9 @@
-//! Questions to a file: which simplices make the mesh at this error, at this budget, at this level?
+//! Queries: which simplices make the mesh at this error, within this budget, or at this level?
 //!
-//! The naive way keeps one mesh per level. Here every level is a few ranges of one index buffer over a prefix of one vertex
-//! buffer: both are uploaded once, and an answer is drawn or copied as it is. Finding it is a binary search over the
-//! error or count table and one look into the interval tree.
+//! The naive way keeps one mesh per level. Here every level is a few ranges of one index buffer
+//! over a prefix of one vertex buffer: both are uploaded once, and an answer is drawn or copied as
+//! it is. To find it takes a binary search over the error or count table and one access to the
+//! interval tree.
 
 mod cut;
 mod delta;

@@ -3,13 +3,14 @@
 use super::Lod;
 use std::collections::HashMap;
 
-/// The part of the surface that changes between a level and the next, cut into patches: the smallest sets of leaving and
-/// entering triangles that fill the same place.
+/// The part of the surface that changes between a level and the next one, cut into patches: the
+/// smallest sets of leaving and entering triangles that fill the same place.
 ///
-/// A file does not name the removals between two levels, but they can be told from the triangles: an edge that is on one
-/// side of the change only, before or after, is inside a patch, and joins the triangles at it; a directed edge that is there
-/// before and after is the border of a patch or lies between two, and joins the leaving to the entering triangle at it.
-/// Surfaces that are not oriented, or not manifold, give larger patches, never smaller ones.
+/// A file does not store the removals between two levels, but the triangles tell them. An edge that
+/// exists before the change or after it, but not both, is inside a patch and joins the triangles at
+/// it. A directed edge that exists before and after is on the border of a patch, and joins the
+/// leaving and the entering triangle at it. Surfaces that are not oriented or not manifold give
+/// larger patches, never smaller ones.
 pub(super) struct Patches {
     /// Leaving triangles, then entering ones.
     pub triangles: Vec<[u32; 3]>,
@@ -117,8 +118,8 @@ fn join(triangles: &[[u32; 3]], n_leaving: usize) -> Sets {
 
 /// Disjoint sets of the numbers below a count.
 ///
-/// Reference: R. E. Tarjan: "Efficiency of a good but not linear set union algorithm" (Journal of the ACM 22, 1975), with path
-/// halving.
+/// Reference: R. E. Tarjan: "Efficiency of a good but not linear set union algorithm" (Journal of
+/// the ACM 22, 1975), with path halving.
 struct Sets {
     parents: Vec<usize>,
 }
@@ -136,7 +137,7 @@ impl Sets {
         member
     }
 
-    /// The smaller root stays, so that sets do not depend on the order of joining.
+    /// The smaller root stays, so the sets do not depend on the order of joining.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         let (low, high) = (a.min(b), a.max(b));

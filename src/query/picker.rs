@@ -2,14 +2,15 @@
 
 use super::{Cut, Lod, View};
 
-/// Part of the tolerance that a coarser level must leave free before it is taken.
+/// Part of the tolerance that a coarser level must leave free before it is chosen.
 const SLACK: f64 = 0.2;
 
-/// Remembers the level of one object from frame to frame, so that a view that trembles does not make it switch.
+/// Remembers the level of one object from frame to frame, so that small movements of the camera do
+/// not make the level switch back and forth.
 ///
-/// A finer level is taken at once: the error on the screen never exceeds [`View::max_error_px`]. A coarser one is taken only
-/// if it leaves a fifth of that free. A level that was taken as a finer one is therefore kept until the view has come
-/// further away by a quarter. Two words, copied freely; nothing is allocated.
+/// A finer level is chosen at once: the error on the screen never exceeds [`View::max_error_px`]. A
+/// coarser level is chosen only if it leaves a fifth of that free. A finer level therefore stays
+/// until the distance has grown by a quarter. A picker is two words long and freely copied.
 ///
 /// ```no_run
 /// # use nephrite::query::{Picker, Projection, View};
@@ -31,8 +32,9 @@ pub struct Picker {
 }
 
 impl Picker {
-    /// The level for this frame: [`Lod::at_pixels`] the first time, and afterwards as the type says. A picker belongs to one
-    /// `Lod`; used with another, its first answer may be finer than necessary. Cost: two binary searches over the levels.
+    /// The level for this frame: [`Lod::at_pixels`] the first time, afterwards as described for the
+    /// type. A picker belongs to one `Lod`; used with another one, its first answer may be finer
+    /// than necessary. Cost: two binary searches over the levels.
     pub fn pick<'a>(&mut self, lod: &'a Lod, view: &View) -> Cut<'a> {
         let coarsest_allowed = lod.at_pixels(view);
         let cut = match self.level {
@@ -46,7 +48,7 @@ impl Picker {
         cut
     }
 
-    /// Level of the frame before, if there was one.
+    /// Level of the last frame, if there was one.
     pub fn level(&self) -> Option<u32> {
         self.level
     }

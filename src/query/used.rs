@@ -1,19 +1,19 @@
-//! The vertices that a level uses, numbered anew.
+//! The vertices that a level uses, with new numbers.
 
 use crate::store::AttributeView;
 use nephrite_formats::Attribute;
 
 /// Which vertices of a prefix are used.
 pub(super) struct UsedVertices {
-    /// Places in the prefix, ascending; `None` where all are used.
+    /// Places in the prefix, ascending; `None` if all vertices are used.
     places: Option<Vec<u32>>,
     n_prefix: usize,
 }
 
 impl UsedVertices {
-    /// Numbers the used vertices among `n_prefix` in their order and puts the new numbers in place of the old; every index is
-    /// below `n_prefix`. Cost: one pass over indices and prefix, 9 bytes per vertex; one where all
-    /// are used.
+    /// Numbers the used vertices among the first `n_prefix` in their order, and replaces the old
+    /// numbers in `indices` by the new ones. Every index must be below `n_prefix`. Cost: one pass
+    /// over indices and prefix, and 9 bytes per vertex.
     pub(super) fn compact(indices: &mut [u32], n_prefix: usize) -> Self {
         let mut is_used = vec![false; n_prefix];
         for &index in indices.iter() {

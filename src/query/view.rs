@@ -19,20 +19,21 @@ pub enum Projection {
     },
 }
 
-/// An object as one camera sees it, and how far from the truth its picture may be.
+/// An object as one camera sees it, and the error that its picture may have.
 ///
-/// Lengths are in mesh units: for an instance scaled by `s`, divide those of the scene by `s`. The object is seen as the
-/// sphere around it ([`Lod::bounding_sphere`]), so that the error counts where the sphere comes closest. In the corners of a
-/// wide picture a point is closer in depth than in distance; give the depth of the centre as `distance` there.
+/// Lengths are in mesh units; for an instance scaled by `s`, divide the lengths of the scene by
+/// `s`. The object is taken as the sphere around it ([`Lod::bounding_sphere`]), and the error
+/// counts where the sphere is closest to the camera. In the corners of a wide picture a point is
+/// closer in depth than in distance; there, use the depth of the centre as `distance`.
 ///
-/// A view has a meaning if heights, angle and tolerance are positive numbers. Others get the nearest answer:
-/// a picture without height shows nothing, for which the coarsest level will do, and wherever the error that would be
-/// allowed is negative or no number at all, it is the finest level.
+/// Heights, angle and tolerance should be positive numbers. Zero height gives the coarsest level,
+/// because nothing is visible. A negative or NaN limit on the error gives the finest level.
 ///
 /// ```
 /// use nephrite::query::{Projection, View};
 /// let projection = Projection::Perspective { fov_y: 90f64.to_radians(), near: 0.1 };
-/// let view = View { projection, height_px: 1000.0, distance: 11.0, radius: 1.0, max_error_px: 1.0 };
+/// let (height_px, distance, radius, max_error_px) = (1000.0, 11.0, 1.0, 1.0);
+/// let view = View { projection, height_px, distance, radius, max_error_px };
 /// // 1,000 pixels cover a length of 20 at distance 10.
 /// assert!((view.error_px(0.02) - 1.0).abs() < 1e-12);
 /// assert!((view.max_error() - 0.02).abs() < 1e-12);
@@ -57,7 +58,7 @@ impl View {
         self.max_error_px * self.covered_length() / self.height_px
     }
 
-    /// The most pixels that an error in mesh units can be seen as.
+    /// Largest number of pixels that an error in mesh units can appear as.
     pub fn error_px(&self, error: f64) -> f64 {
         error * self.height_px / self.covered_length()
     }
@@ -66,7 +67,7 @@ impl View {
     fn covered_length(&self) -> f64 {
         match self.projection {
             Projection::Perspective { fov_y, near } => {
-                // A NaN must not be lost in a comparison with the near plane.
+                // A NaN must survive the comparison with the near plane.
                 let closest = self.distance - self.radius;
                 let depth = if closest < near { near } else { closest };
                 2.0 * (fov_y / 2.0).tan() * depth
@@ -77,15 +78,15 @@ impl View {
 }
 
 impl Lod {
-    /// The coarsest level whose error is at most [`View::max_error_px`] pixels, as [`at_error`](Self::at_error) finds it for
-    /// [`View::max_error`]. See [`View`] for views without a meaning. [`Picker`](super::Picker) is for callers that
-    /// ask every frame.
+    /// The coarsest level whose error is at most [`View::max_error_px`] pixels:
+    /// [`at_error`](Self::at_error) of [`View::max_error`]. Callers that ask every frame use a
+    /// [`Picker`](super::Picker).
     pub fn at_pixels(&self, view: &View) -> Cut<'_> {
         self.at_error(view.max_error())
     }
 
-    /// Centre, relative to [`origin`](Self::origin), and radius of the sphere around [`bounds`](Self::bounds), which holds
-    /// all vertices.
+    /// Centre, relative to [`origin`](Self::origin), and radius of the sphere around
+    /// [`bounds`](Self::bounds). It contains all vertices.
     pub fn bounding_sphere(&self) -> ([f64; 3], f64) {
         let (min, max) = self.bounds();
         let centre = std::array::from_fn(|i| f64::midpoint(f64::from(min[i]), f64::from(max[i])));
@@ -151,7 +152,7 @@ mod tests {
             nothing.iter().map(View::max_error).all(|error| error.is_nan() || error < 0.0),
             "{nothing:?}"
         );
-        // A near plane that is no number is none.
+        // A NaN near plane counts as no near plane.
         assert_eq!(perspective(1.0, nan).max_error(), VIEW.max_error());
     }
 }

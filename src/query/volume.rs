@@ -6,13 +6,13 @@ use crate::volume::{self, Plane};
 use nephrite_formats::{TetrahedronMesh, TriangleMesh};
 
 impl Cut<'_> {
-    /// The level of a volume as a mesh of its own, fields included, without vertices that no tetrahedron uses. Every index and
-    /// every position is checked.
+    /// The level of a volume as a mesh of its own, with fields and without vertices that no
+    /// tetrahedron uses. Every index and every position is checked.
     ///
     /// # Errors
     ///
-    /// [`QueryError::NotTetrahedra`] for a file of other simplices; [`QueryError::VertexIndex`] and [`QueryError::Position`] for a
-    /// damaged file.
+    /// [`QueryError::NotTetrahedra`] for a file of other simplices; [`QueryError::VertexIndex`] and
+    /// [`QueryError::Position`] for a damaged file.
     pub fn to_volume(&self) -> Result<TetrahedronMesh, QueryError> {
         let lod = self.lod();
         if lod.n_corners() != 4 {
@@ -35,7 +35,8 @@ impl Cut<'_> {
         })
     }
 
-    /// The surface around the level of a volume, seen counter-clockwise from outside, with the fields of its vertices.
+    /// The surface around the level of a volume, seen counter-clockwise from outside, with the
+    /// fields of its vertices.
     ///
     /// # Errors
     ///
@@ -44,8 +45,8 @@ impl Cut<'_> {
         Ok(volume::boundary(&self.to_volume()?))
     }
 
-    /// The level of a volume where it meets a plane given in file coordinates: triangles with the fields interpolated, facing the
-    /// way of the plane's normal.
+    /// The section of the level of a volume with a plane given in file coordinates: triangles with
+    /// interpolated fields that face along the normal of the plane.
     ///
     /// # Errors
     ///

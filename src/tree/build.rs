@@ -31,7 +31,7 @@ pub enum TreeError {
     },
 }
 
-/// Where every lifetime is stored: the finished shape of a tree, without what is stored.
+/// Where every lifetime is stored: the structure of a tree, without the simplices.
 ///
 /// Memory: 4 bytes per slot and 4 bytes per height and level.
 ///
@@ -45,8 +45,8 @@ pub enum TreeError {
 /// })?;
 /// let (offsets, runs) = layout.runs();
 /// let tree = Tree::new(&offsets, &runs, layout.slots().len() as u32);
-/// let alive: Vec<u32> = tree.stab(1).flat_map(|run| &layout.slots()[run.range()]).copied().collect();
-/// assert_eq!(alive, [0, 2]);
+/// let alive = tree.stab(1).flat_map(|run| &layout.slots()[run.range()]);
+/// assert!(alive.eq(&[0, 2]));
 /// # Ok::<(), nephrite::tree::TreeError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,13 +60,15 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Lays out the lifetimes `0..n_ids`; ids for which `lifetime_of` gives `None` are left out. Within a group, ids ascend.
+    /// Lays out the lifetimes `0..n_ids`. Ids for which `lifetime_of` returns `None` are left out.
+    /// Within a group, ids ascend.
     ///
-    /// `lifetime_of` is asked twice for each id and must answer the same. Cost: `O(n_ids + n_levels log n_levels)`.
+    /// `lifetime_of` is called twice for each id and must return the same both times. Cost:
+    /// `O(n_ids + n_levels log n_levels)`.
     ///
     /// # Errors
     ///
-    /// [`TreeError`] when slots do not fit in 32 bits or a lifetime ends behind the last level.
+    /// [`TreeError`] if slots do not fit in 32 bits or a lifetime ends after the last level.
     pub fn build(
         n_levels: u32,
         n_ids: u32,
@@ -81,7 +83,8 @@ impl Layout {
             start += count;
         }
 
-        // Each entry is the next free slot of its group now, and its end when all ids are placed.
+        // Until all ids are placed, each entry is the next free slot of its group; afterwards it is
+        // the end of the group.
         let mut slots = vec![0u32; n_slots as usize];
         let mut place = |height, level, id| {
             let slot = &mut ends[group_index(n_levels, height, level)];
@@ -99,8 +102,9 @@ impl Layout {
         Ok(Self { n_levels, n_lifetimes, ends, slots })
     }
 
-    /// Sorts the ids inside each group by `key`, equal keys by id. Cuts do not change as sets, but neighbours in `key` (a
-    /// space-filling curve, say) become neighbours in memory.
+    /// Sorts the ids inside each group by `key`, and equal keys by id. The simplices of a cut do
+    /// not change, but neighbours in `key`, such as a space-filling curve, become neighbours in
+    /// memory.
     pub fn sort_groups_by_key<K: Ord + Send>(&mut self, key: impl Fn(u32) -> K + Sync) {
         let (short, long): (Vec<_>, Vec<_>) =
             self.groups_mut().into_iter().partition(|ids| ids.len() < PARALLEL_SORT_LEN);
@@ -108,13 +112,15 @@ impl Layout {
         short.into_par_iter().for_each(|ids| ids.sort_by_cached_key(|&id| key(id)));
     }
 
-    /// Gives the ids of each group to `order`, which may change their order, in stretches of at most `max_len`, so that none of them
-    /// takes much memory. They run on all threads of the current rayon pool, with states from `init` of which no thread uses two at a
-    /// time. The result must not depend on that state.
+    /// Calls `order` for stretches of at most `max_len` ids of each group; `order` may permute its
+    /// stretch. Short stretches limit the memory that `order` takes.
+    ///
+    /// Stretches run on all threads of the current rayon pool, each with a state from `init` that
+    /// no other thread uses at the same time. The result must not depend on that state.
     ///
     /// # Panics
     ///
-    /// When `max_len` is 0.
+    /// If `max_len` is 0.
     pub fn order_stretches<S>(
         &mut self,
         max_len: usize,
@@ -141,7 +147,7 @@ impl Layout {
         &self.slots
     }
 
-    /// The groups that are not empty with their slots, in the order of the slots.
+    /// The groups that are not empty and their slots, in the order of the slots.
     pub fn groups(&self) -> impl Iterator<Item = (Group, Range<usize>)> + '_ {
         let mut start = 0;
         LayoutOrder::new(self.n_levels).filter_map(move |group| {
@@ -158,7 +164,8 @@ impl Layout {
         lens.into_iter().filter_map(|len| rest.split_off_mut(..len)).collect()
     }
 
-    /// The runs of all levels, level by level: offsets (`n_levels + 1` of them) and runs, as [`Tree`](super::Tree) takes them.
+    /// The runs of all levels, level by level: offsets (`n_levels + 1` of them) and runs, as
+    /// [`Tree`](super::Tree) takes them.
     pub fn runs(&self) -> (Vec<u64>, Vec<Run>) {
         let height_starts = self.height_starts();
         let mut offsets = Vec::with_capacity(self.n_levels as usize + 1);
@@ -193,16 +200,16 @@ impl Layout {
         starts
     }
 
-    /// The prefix that is alive at `level` in its node of `height`: from the end of the group before its list to the end of
-    /// the level's own group.
+    /// The prefix that is alive at `level` in its node of `height`. It starts at the end of the
+    /// last group before its list, and ends at the end of the group of `level`.
     fn run(&self, height: u32, level: u32, height_start: u32) -> Run {
         let half = (1u32 << height) >> 1;
         let node_start = level >> height << height;
         let start = match Group::new(height, level).list {
             List::Death => self.end(height, node_start + half - 1),
             List::Birth if node_start == 0 => height_start,
-            // The list before is the death list of the node before, which ends with that node's centre; a node of height 0
-            // has one group.
+            // Before a birth list comes the death list of the node before, which ends with the
+            // centre of that node. A node of height 0 has one group.
             List::Birth => self.end(height, node_start - half.max(1)),
         };
         Run { start, len: self.end(height, level) - start }

@@ -26,7 +26,7 @@ pub enum TreeFault {
         /// First slot of the run.
         start: u32,
     },
-    /// A run is not the prefix of its list.
+    /// A run is not a prefix of its list.
     #[error(
         "level {level}, height {height}: run is slots {found:?}, expected to begin at {start} and reach {end} or more"
     )]
@@ -42,7 +42,7 @@ pub enum TreeFault {
         /// End of the group before.
         end: u32,
     },
-    /// Slots that no run reaches.
+    /// No run reaches the last slots.
     #[error("nodes end at slot {found} of {expected}")]
     Coverage {
         /// Slots that the nodes cover.
@@ -50,7 +50,7 @@ pub enum TreeFault {
         /// Slots there are.
         expected: u32,
     },
-    /// The stored stamp does not belong into the slot's group.
+    /// The stored stamp is impossible in the group of the slot.
     #[error("slot {slot}: stamp {found} is impossible for level {level} at height {height}")]
     Stamp {
         /// Which slot.
@@ -62,7 +62,7 @@ pub enum TreeFault {
         /// Height of the group.
         height: u32,
     },
-    /// The two lists of a node do not hold the same simplices with the same lifetimes.
+    /// The two lists of a node hold different simplices or lifetimes.
     #[error("node {node} of height {height}: birth list and death list differ")]
     Lists {
         /// Which node.
@@ -76,14 +76,16 @@ pub enum TreeFault {
 type Member = (u32, u32);
 
 impl Tree<'_> {
-    /// Checks the whole tree: offsets, runs, groups, stamps, and that both lists of every node hold the same.
+    /// Checks the whole tree: offsets, runs, groups, stamps, and that both lists of every node hold
+    /// the same.
     ///
-    /// `stamps[slot]` is the stored stamp; `payload` has `n_corners` numbers per slot. `visit` is called once for each slot
-    /// with its lifetime. Cost: `O(n_slots log n_slots)` time, 8 bytes per slot of the largest node and 4 bytes per level.
+    /// `stamps[slot]` is the stored stamp; `payload` has `n_corners` numbers per slot. `visit` is
+    /// called once for each slot with its lifetime. Cost: `O(n_slots log n_slots)` time, 8 bytes
+    /// per slot of the largest node and 4 bytes per level.
     ///
     /// # Errors
     ///
-    /// The first [`TreeFault`] in the order of the slots, or what `visit` returned.
+    /// The first [`TreeFault`] in the order of the slots, or the error of `visit`.
     pub fn check<E: From<TreeFault>>(
         &self,
         stamps: &[u32],
@@ -152,7 +154,8 @@ impl Tree<'_> {
         }
     }
 
-    /// The slots of `group`, which the run of its level adds to `list`, the part of its list before it.
+    /// The slots of `group`: what the run of its level adds to `list`, the part of the list before
+    /// the group.
     fn take_group(
         &self,
         group: Group,
@@ -163,8 +166,8 @@ impl Tree<'_> {
         let Group { height, level, .. } = group;
         let taken = &mut n_taken[level as usize];
         let run = self.stored_runs(level).get(*taken as usize).copied();
-        // The run belongs to this height if its first member does: that one is alive at `level`, so its other end tells the
-        // height without knowing its list.
+        // The run belongs to this height if its first member does. That member is alive at `level`,
+        // so its stored stamp gives the height, whichever list it is in.
         let run = run.filter(|run| {
             let stamp = stamps.get(run.start as usize).copied();
             stamp.and_then(|stamp| height_from_stamp(level, stamp)) == Some(height)
@@ -189,7 +192,8 @@ impl Tree<'_> {
     }
 }
 
-/// Height of a slot that is alive at `level` and stores `stamp`: a death above `level` or a birth at or below it.
+/// Height of a slot that is alive at `level` and stores `stamp`: a death above `level` or a birth
+/// at or below it.
 pub(super) fn height_from_stamp(level: u32, stamp: u32) -> Option<u32> {
     let other_end = if stamp > level { stamp - 1 } else { stamp };
     let height = u32::BITS - (level ^ other_end).leading_zeros();
@@ -212,7 +216,7 @@ impl Members<'_> {
         group.lifetime(found, self.n_levels).ok_or(TreeFault::Stamp { slot, found, level, height })
     }
 
-    /// What two slots of one node must have in common to be the same simplex: lifetime and payload.
+    /// What two slots of one node must share to be the same simplex: lifetime and payload.
     fn key(&self, list: List, (slot, level): Member) -> (u32, u32, &[u32]) {
         let stamp = self.stamps.get(slot as usize).copied().unwrap_or(0);
         let (birth, last) = match list {

@@ -10,20 +10,26 @@ const MAX_HEIGHTS: usize = 32;
 type RunsByHeight = [Run; MAX_HEIGHTS];
 
 impl<'a> Tree<'a> {
-    /// The simplices alive at `level` and not at `other`; `stamps` are the stored ones of all slots.
+    /// The simplices alive at `level` and not at `other`. `stamps` are the stored stamps of all
+    /// slots.
     ///
-    /// The naive way compares two cuts simplex by simplex. Here they are compared height by height. With `crossing` as the
-    /// bit length of `level ^ other`,
+    /// The naive way compares two cuts simplex by simplex. Here they are compared height by height.
+    /// Let `crossing` be the bit length of `level ^ other`.
     ///
-    /// * below `crossing` the levels are in different nodes, so that the whole run of `level` is gone at `other`;
-    /// * above it they are in the same half of one node, and of two prefixes of one list the longer one has the rest;
-    /// * at `crossing` they are in the two halves of one node, whose centre is between them. Either the run of `level` is
-    ///   searched for what is not alive at `other`, or what the other half's list has behind the run of `other` for what is
-    ///   alive at `level`, whichever is shorter. The latter holds only what is born or dies between the two levels.
+    /// * Below `crossing` the levels are in different nodes, so the whole run of `level` is gone at
+    ///   `other`.
+    /// * Above `crossing` the levels are in the same half of one node. Their runs are prefixes of
+    ///   one list, and the longer one has the rest.
+    /// * At `crossing` they are in the two halves of one node, whose centre is between them. Two
+    ///   ranges hold the answer: the run of `level`, searched for simplices that are not alive at
+    ///   `other`; and what the list of the other half has after the run of `other`, searched for
+    ///   simplices that are alive at `level`. The shorter one is searched. The second one holds
+    ///   only simplices that are born or die between the two levels.
     ///
-    /// Neighbouring levels have nothing at the crossing height that only one of them has, so all is contiguous. Where runs
-    /// of the other half's list come out, their slots are not those that the cut of `level` draws; the simplices are.
-    /// Cost: one stamp per run of three levels, then one step per run and per simplex searched.
+    /// Neighbouring levels differ in nothing at the height `crossing`, so all runs are contiguous.
+    /// Runs from the list of the other half have other slots than the cut of `level`, but the same
+    /// simplices. Cost: one stamp per run of three levels, then one step per run and per simplex
+    /// searched.
     pub fn only_at(&self, level: u32, other: u32, stamps: &'a [u32]) -> Difference<'a> {
         let crossing = (u32::BITS - (level ^ other).leading_zeros()) as usize;
         let mut parts = self.runs_by_height(level, stamps);
@@ -39,17 +45,20 @@ impl<'a> Tree<'a> {
                 if stamp == level {
                     *part = rest;
                 }
-                // Stamps are deaths in the list of the lower half, births in that of the upper half.
+                // Stored stamps are deaths in the list of the lower half, births in that of the
+                // upper half.
                 keep = if level < other { Keep::AtMost(stamp) } else { Keep::Above(stamp) };
             }
         }
         Difference { parts, heights_left: MAX_HEIGHTS, crossing, keep, stamps }
     }
 
-    /// The list of the half that `level` is in, of the node of `height` whose other half `other` is in.
+    /// All simplices of the half that `level` is in, of the node of `height` whose other half
+    /// contains `other`.
     fn list_of_half(&self, level: u32, other: u32, height: usize, stamps: &[u32]) -> Run {
         let centre = level.max(other) >> (height - 1) << (height - 1);
-        // The whole birth list is alive just before the centre, the whole death list at the centre.
+        // Just before the centre the whole birth list is alive; at the centre, the whole death
+        // list.
         let all_alive = if level < other { centre - 1 } else { centre };
         self.runs_by_height(all_alive, stamps)[height]
     }
@@ -73,7 +82,7 @@ fn without_prefix(run: Run, len: u32) -> Run {
     Run { start: run.start + len, len: run.len - len }
 }
 
-/// Which simplices of a searched range are kept, by their stored stamp.
+/// Which simplices of a searched range are kept, by stored stamp.
 #[derive(Clone, Copy, Debug)]
 enum Keep {
     All,
@@ -97,7 +106,7 @@ pub struct Difference<'a> {
     /// What is left of each height.
     parts: RunsByHeight,
     heights_left: usize,
-    /// The one height at which a part is searched, and for what.
+    /// The one height at which a range is searched, and what for.
     crossing: usize,
     keep: Keep,
     stamps: &'a [u32],
@@ -123,7 +132,7 @@ impl Iterator for Difference<'_> {
     }
 }
 
-/// Takes the first run of simplices that are kept, and all before it, off the front of `part`.
+/// Takes the first run of kept simplices, and all before it, off the front of `part`.
 fn take_kept(part: &mut Run, keep: Keep, stamps: &[u32]) -> Run {
     let stamps = stamps.get(part.range()).unwrap_or(&[]);
     let n_before = stamps.iter().take_while(|&&stamp| !keep.keeps(stamp)).count();

@@ -1,36 +1,42 @@
 //! The interval tree: which simplices are alive at a level, as a few contiguous ranges.
 //!
-//! The naive way looks at every lifetime and keeps those with `birth <= level < death`. A textbook interval tree keeps
-//! ids in two sorted lists per node and gathers the simplices one by one. Here the lists hold *the simplices themselves*,
-//! so an answer is a handful of prefixes that can be drawn or copied as they are.
+//! The naive way looks at every lifetime and keeps those with `birth <= level < death`. A textbook
+//! interval tree keeps ids in two sorted lists per node and gathers the simplices one by one. Here
+//! the lists hold *the simplices themselves*, so an answer is a handful of prefixes that can be
+//! drawn or copied as they are.
 //!
-//! **Nodes without pointers or centres.** Levels are integers, so a tree on dyadic centres needs no nodes in memory: the
-//! lifetime `[b, d)` lives at height `h = bit length of b ^ (d - 1)` in node `b >> h`, the smallest dyadic block that holds
-//! all its levels. The block's centre `c` satisfies `b < c < d`. A level `q < c` in the block is inside `[b, d)` when
-//! `b <= q`, a level `q >= c` when `d > q`. Hence a list by birth ascending and a list by death descending answer every
-//! stab with one prefix, at most one per height, `bit length of (n_levels - 1) + 1` in all. A lifetime of one level only has
-//! height 0 and is stored once.
+//! **Nodes without pointers or centres.** Levels are integers, so a tree on dyadic centres needs no
+//! nodes in memory. The lifetime `[b, d)` lives at height `h = bit length of b ^ (d - 1)` in node
+//! `b >> h`, the smallest dyadic block that holds all its levels. The centre `c` of the block
+//! satisfies `b < c < d`. A level `q < c` in the block is inside `[b, d)` if `b <= q`, a level `q
+//! >= c` if `d > q`. Hence a list by birth ascending and a list by death descending answer every
+//! stab with one prefix: at most one per height, `bit length of (n_levels - 1) + 1` in all. A
+//! lifetime of one level has height 0 and is stored once.
 //!
-//! **One group per height and level.** At height `h >= 1` a level `x` is either below its block's centre, then only births
-//! can carry the stamp `x` there, or not, then only last levels (`death - 1`) can. So the whole order is one counting sort
-//! with `n_heights * n_levels` groups, and a prefix is known from the ends of two groups; [`LayoutOrder`] lists the groups in
-//! the order of their slots.
+//! **One group per height and level.** At height `h >= 1`, a level `x` is below the centre of its
+//! block or not. If it is, only births carry the stamp `x` there; if not, only last levels (`death
+//! - 1`) do. So the whole order is one counting sort with `n_heights * n_levels` groups, and a
+//! prefix follows from the ends of two groups. [`LayoutOrder`] lists the groups in the order of
+//! their slots.
 //!
-//! **Finding the prefixes.** Searching each list for the stamp costs a few cache misses per height, some 40 in a tree of
-//! a million levels. A table of prefix lengths by height and level, 4 bytes each, needs the lists' starts as well, one
-//! random access per height. We keep the finished runs per level, empty ones left out: an offset and some 10 to 14 runs of
-//! 8 bytes, two to three adjacent cache lines, whatever the size of the tree. Measured with a million levels and 100 million
-//! lifetimes that is 118 MB beside 3.2 GB of slots and stamps, and a stab takes 0.43 us in the median, 0.85 us at the 99th
-//! percentile, with at most 21 runs. Files with the usual few hundred levels spend a few dozen KiB.
+//! **Finding the prefixes.** Searching each list for the stamp costs a few cache misses per height,
+//! some 40 in a tree of a million levels. A table of prefix lengths by height and level, 4 bytes
+//! each, needs the starts of the lists too, one random access per height. We keep the finished runs
+//! per level and leave out empty ones: an offset and some 10 to 14 runs of 8 bytes, two to three
+//! adjacent cache lines, whatever the size of the tree. With a million levels and 100 million
+//! lifetimes this takes 118 MB beside 3.2 GB of slots and stamps, and a stab takes 0.43 us in the
+//! median and 0.85 us at the 99th percentile, with at most 21 runs. Files with the usual few
+//! hundred levels spend a few dozen KiB.
 //!
-//! **The other stamp.** A slot's place gives one of its stamps; the other one is kept beside the slots
-//! ([`Group::stored_stamp`]), where a stab never looks.
+//! **The other stamp.** The position of a slot gives one of its stamps. The other one is kept
+//! beside the slots ([`Group::stored_stamp`]), where a stab never looks.
 //!
 //! The tree knows no mesh and no file: it is built from lifetimes and answers over borrowed slices.
 //!
-//! Reference: P. Cignoni, C. Montani, E. Puppo, R. Scopigno: "Optimal isosurface extraction from irregular volume data"
-//! (IEEE Volume Visualization 1996) for two sorted lists per node; A. Ciampalini et al.: "Multiresolution decimation based on
-//! global error" (The Visual Computer, 1997), section 7, for stabbing a decimation history.
+//! References: P. Cignoni, C. Montani, E. Puppo, R. Scopigno: "Optimal isosurface extraction from
+//! irregular volume data" (IEEE Volume Visualization 1996), for two sorted lists per node; A.
+//! Ciampalini et al.: "Multiresolution decimation based on global error" (The Visual Computer,
+//! 1997), section 7, for stabbing a decimation history.
 
 mod build;
 mod check;
@@ -52,7 +58,7 @@ pub struct Lifetime {
 }
 
 impl Lifetime {
-    /// `None` when no level lies in `[birth, death)`.
+    /// `None` if no level lies in `[birth, death)`.
     ///
     /// ```
     /// use nephrite::tree::Lifetime;

@@ -1,9 +1,11 @@
-//! The order of the groups: by height from the largest, by node, births ascending, deaths descending.
+//! The order of the groups: by height from the largest, then by node; births ascending, then deaths
+//! descending.
 
 use super::Lifetime;
 use std::ops::Range;
 
-/// Heights of a tree over `n_levels` levels, at most 2^31 of them: the bit length of the last level, and one.
+/// Number of heights of a tree over `n_levels` levels, at most 2^31: the bit length of the last
+/// level, plus 1.
 pub fn n_heights(n_levels: u32) -> u32 {
     u32::BITS - n_levels.saturating_sub(1).leading_zeros() + 1
 }
@@ -22,7 +24,8 @@ pub enum List {
 pub struct Group {
     /// Height of the node.
     pub height: u32,
-    /// Birth of all members in a birth list, last level (`death - 1`) of all members in a death list.
+    /// Birth of all members in a birth list, last level (`death - 1`) of all members in a death
+    /// list.
     pub level: u32,
     /// The list it belongs to.
     pub list: List,
@@ -48,7 +51,8 @@ impl Group {
         self.list == List::Birth && self.level.trailing_zeros() >= self.height
     }
 
-    /// The stamp of a member that its place does not give: death in a birth list, birth in a death list.
+    /// The stamp of a member that its position does not give: death in a birth list, birth in a
+    /// death list.
     pub fn stored_stamp(self, lifetime: Lifetime) -> u32 {
         match self.list {
             List::Birth => lifetime.death(),
@@ -56,7 +60,8 @@ impl Group {
         }
     }
 
-    /// The lifetime of a member from its stored stamp, or `None` when no member can carry that stamp.
+    /// The lifetime of a member from its stored stamp, or `None` when no member can carry that
+    /// stamp.
     pub fn lifetime(self, stored_stamp: u32, n_levels: u32) -> Option<Lifetime> {
         let lifetime = match self.list {
             List::Birth => Lifetime::new(self.level, stored_stamp),
@@ -66,13 +71,15 @@ impl Group {
     }
 }
 
-/// All groups of a tree in the order of their slots: `n_heights * n_levels` of them, many empty in a given tree.
+/// All groups of a tree in the order of their slots: `n_heights * n_levels` of them, many empty in
+/// a given tree.
 #[derive(Clone, Debug)]
 pub struct LayoutOrder {
     n_levels: u32,
     /// One more than the height being listed.
     heights_left: u32,
-    /// First level of the node being listed; `u64` because the node behind the last one may begin at 2^32.
+    /// First level of the node being listed; `u64` because the node behind the last one may begin
+    /// at 2^32.
     node_start: u64,
     /// Levels of the node not listed yet.
     births: Range<u64>,

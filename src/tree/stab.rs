@@ -1,4 +1,4 @@
-//! Stabbing: the runs of a level, over borrowed slices that nobody has to trust.
+//! Stabbing: the runs of a level, over borrowed slices whose content need not be valid.
 
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
@@ -40,7 +40,8 @@ pub struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    /// A tree over slices of any content: offsets out of range give no runs, and runs are clamped where they are used.
+    /// A tree over slices of any content: offsets out of range give no runs, and runs are clamped
+    /// when they are read.
     pub fn new(offsets: &'a [u64], runs: &'a [Run], n_slots: u32) -> Self {
         Self { offsets, runs, n_slots }
     }
@@ -60,7 +61,7 @@ impl<'a> Tree<'a> {
         self.n_slots
     }
 
-    /// Runs as stored, not clamped, of `level`; empty where the offsets are out of range.
+    /// Runs of `level` as stored, not clamped; empty if the offsets are out of range.
     pub fn stored_runs(&self, level: u32) -> &'a [Run] {
         let offset = |index: usize| self.offsets.get(index).and_then(|&offset| usize::try_from(offset).ok());
         let level = level as usize;
@@ -68,15 +69,15 @@ impl<'a> Tree<'a> {
         self.runs.get(start..end).unwrap_or(&[])
     }
 
-    /// The simplices alive at `level`, as runs that ascend and do not overlap. Cost: two to three cache lines, then one step
-    /// per run.
+    /// The simplices alive at `level`, as runs that ascend and do not overlap. Cost: two to three
+    /// cache lines, then one step per run.
     pub fn stab(&self, level: u32) -> Runs<'a> {
         Runs { stored: self.stored_runs(level).iter(), floor: 0, n_slots: self.n_slots }
     }
 }
 
-/// Iterator over the runs of one level. In a damaged tree runs are clamped to the slots behind the run before, so that all
-/// runs together never exceed the number of slots.
+/// Iterator over the runs of one level. Each run is clamped to the slots after the run before it,
+/// so that the runs of a damaged tree together never exceed the number of slots.
 #[derive(Clone, Debug)]
 pub struct Runs<'a> {
     stored: std::slice::Iter<'a, Run>,

@@ -7,14 +7,16 @@ const NONE: u32 = u32::MAX;
 
 /// Orders triangles so that neighbours are drawn while their vertices are in the cache.
 ///
-/// All triangles around one vertex are drawn, then those around the vertex among theirs that came into the cache longest
-/// ago and will still be there when its own are drawn; where there is none, the last one that was drawn and has triangles
-/// left; and where there is none of these either, the first such in the order given. Linear in the triangles.
+/// All triangles around one vertex are drawn. The next vertex is chosen among theirs: the one that
+/// came into the cache longest ago and will still be there when its own triangles are drawn. If
+/// there is none, it is the last vertex drawn that has triangles left; if there is none either, the
+/// first vertex with triangles left in the given order. Linear in the triangles.
 ///
-/// Memory: 4 bytes per vertex of the mesh, kept between calls, and some 40 bytes per triangle during one.
+/// Memory: 4 bytes per vertex of the mesh, kept between calls, and some 40 bytes per triangle
+/// during a call.
 ///
-/// Reference: P. Sander, D. Nehab, J. Barczak: "Fast triangle reordering for vertex locality and reduced overdraw"
-/// (SIGGRAPH 2007), section 3, the algorithm called Tipsify.
+/// Reference: P. Sander, D. Nehab, J. Barczak: "Fast triangle reordering for vertex locality and
+/// reduced overdraw" (SIGGRAPH 2007), section 3, the algorithm called Tipsify.
 #[derive(Clone, Debug)]
 pub struct FanOrder {
     /// Place of each vertex in the lists of one call.
@@ -28,9 +30,9 @@ impl FanOrder {
         Self { place: vec![NONE; n_vertices], vertices: Vec::new() }
     }
 
-    /// The order of `triangles`: each index below their number once.
+    /// The order of `triangles`: each index below their number, once.
     ///
-    /// `None` when a vertex is out of range or there are too many triangles to count their corners in 32 bits.
+    /// `None` if a vertex is out of range or the corners do not fit in 32 bits.
     ///
     /// ```
     /// use nephrite::vertex_cache::FanOrder;
@@ -42,7 +44,7 @@ impl FanOrder {
         self.order_owned(triangles.to_vec())
     }
 
-    /// As [`Self::order`] for triangles that nobody needs any more.
+    /// As [`Self::order`], for triangles that the caller gives away.
     pub fn order_owned(&mut self, mut triangles: Vec<[u32; 3]>) -> Option<Vec<u32>> {
         let corners = triangles.as_flattened();
         u32::try_from(corners.len()).ok()?;
@@ -72,7 +74,8 @@ impl FanOrder {
     }
 }
 
-/// One call: triangles around each vertex, and how far the drawing has come. Vertices are named by their places.
+/// One call: triangles around each vertex, and how far the drawing has come. Vertices are named by
+/// their places.
 struct Drawing {
     corners: Vec<[u32; 3]>,
     /// Triangles around vertex `v` are `around[starts[v]..starts[v + 1]]`.
@@ -80,12 +83,12 @@ struct Drawing {
     around: Vec<u32>,
     n_left: Vec<u32>,
     is_drawn: Vec<bool>,
-    /// Misses so far, and at which each vertex came in.
+    /// Misses so far, and the number of misses at which each vertex came in.
     time: u32,
     came_in: Vec<u32>,
-    /// Vertices drawn, the latest last; those that have no triangles left may be missing.
+    /// Vertices drawn, the latest last; vertices without triangles left may be missing.
     trail: Vec<u32>,
-    /// Length of the trail from which it is worth dropping those.
+    /// Length of the trail from which it is shortened.
     long_trail: usize,
     order: Vec<u32>,
 }
@@ -157,15 +160,16 @@ impl Drawing {
         }
     }
 
-    /// Drops those without triangles left, whom nobody asks for. O(1) per vertex drawn, amortised.
+    /// Drops vertices without triangles left. O(1) per vertex drawn, amortised.
     fn shorten_trail(&mut self) {
         let Self { trail, n_left, .. } = self;
         trail.retain(|&vertex| n_left[vertex as usize] > 0);
         self.long_trail = self.long_trail.max(2 * self.trail.len());
     }
 
-    /// Of the vertices drawn last, the one that is in the cache for longest and will be until its triangles are drawn, each
-    /// of which brings in two more at most; any other that has triangles left if there is none.
+    /// The vertex among the last ones drawn that has been in the cache longest and will stay until
+    /// its triangles are drawn; each of them brings in at most two more. If there is none, any
+    /// other of them that has triangles left.
     fn best_of_trail(&self, trail_start: usize) -> Option<u32> {
         let mut best = None;
         for &vertex in &self.trail[trail_start..] {

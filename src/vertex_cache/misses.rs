@@ -1,12 +1,12 @@
 //! Counting misses of a simulated cache.
 
-/// Length of the cache that orders are made and measured for, first in, first out.
+/// Length of the first-in, first-out cache that orders are made and measured for.
 pub const CACHE_LEN: u32 = 16;
 
-/// Average cache miss ratio: misses per triangle of a cache of `cache_len` vertices, first in, first out, that is empty at
-/// first. Zero for no triangles.
+/// Average cache miss ratio: misses per triangle of a first-in, first-out cache of `cache_len`
+/// vertices that is empty at first. 0 for no triangles.
 ///
-/// Memory: 8 bytes per vertex up to the largest.
+/// Memory: 8 bytes per vertex up to the largest one.
 ///
 /// ```
 /// use nephrite::vertex_cache::miss_ratio;
@@ -15,7 +15,7 @@ pub const CACHE_LEN: u32 = 16;
 /// ```
 pub fn miss_ratio(triangles: impl IntoIterator<Item = [u32; 3]>, cache_len: u32) -> f64 {
     let cache_len = u64::from(cache_len);
-    // Misses before each vertex came in, counted from 1; zero for never.
+    // Misses before each vertex came in, counted from 1; 0 if it never did.
     let mut came_in: Vec<u64> = Vec::new();
     let (mut n_misses, mut n_triangles) = (0, 0u64);
     for triangle in triangles {
@@ -41,7 +41,8 @@ mod tests {
     #[test]
     fn a_vertex_leaves_after_as_many_misses_as_the_cache_is_long() {
         let far = |first| [first, first + 1, first + 2];
-        // Three misses each: 0 to 2 come in, are still there after 3 others with a cache of 6, and not with one of 5.
+        // Three misses each: 0 to 2 come in, are still there after 3 others with a cache of 6, and
+        // not with one of 5.
         let triangles = [far(0), far(3), far(0)];
         assert_eq!(miss_ratio(triangles, 6), 2.0);
         assert_eq!(miss_ratio(triangles, 5), 3.0);

@@ -1,7 +1,8 @@
-//! Orders of triangles that suit the vertex cache of a graphics processor, and what an order is worth.
+//! Orders of triangles for the vertex cache of a graphics processor, and a measure of an order.
 //!
-//! A graphics processor transforms a vertex again whenever it is drawn and no longer in a small cache. Triangles at random
-//! places miss it three times each; around a surface with half as many vertices as triangles, 0.5 would be perfect.
+//! A graphics processor transforms a vertex again if it is no longer in a small cache when it is
+//! drawn. Triangles at random places miss three times each. On a surface with half as many vertices
+//! as triangles, 0.5 misses per triangle would be perfect.
 
 mod fans;
 mod misses;

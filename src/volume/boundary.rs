@@ -3,8 +3,9 @@
 use crate::mesh::boundary_triangles;
 use nephrite_formats::{Attribute, TetrahedronMesh, TriangleMesh};
 
-/// The faces that belong to one tetrahedron only, seen counter-clockwise from outside where the tetrahedra have positive volume.
-/// Vertices keep their order, their values and nothing of those inside. O(n).
+/// The faces that belong to one tetrahedron only, counter-clockwise as seen from outside if the
+/// tetrahedra have positive volume. Boundary vertices keep their order and their values; inner
+/// vertices are left out. O(n).
 pub fn boundary(volume: &TetrahedronMesh) -> TriangleMesh {
     const UNUSED: u32 = u32::MAX;
     let mut triangles = boundary_triangles(&volume.tetrahedra, volume.positions.len());

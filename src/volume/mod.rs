@@ -1,4 +1,4 @@
-//! Surfaces out of volumes: the boundary, and the section with a plane.
+//! Surfaces from volumes: the boundary, and the section with a plane.
 
 mod boundary;
 mod slice;

@@ -1,7 +1,8 @@
 //! The section of a volume with a plane.
 //!
-//! Every tetrahedron with vertices on both sides gives a triangle or a quadrilateral, whose corners lie on its edges. A corner is
-//! named by the two ends of its edge, so that neighbours share it; a vertex on the plane is an edge of no length.
+//! Every tetrahedron with vertices on both sides gives a triangle or a quadrilateral, whose corners
+//! lie on its edges. The two ends of the edge are the name of a corner, so that neighbours share
+//! it. A vertex on the plane counts as an edge of length 0.
 
 use crate::geometry::vector::{cross, dot, length, sub};
 use nephrite_formats::{Attribute, TetrahedronMesh, TriangleMesh};
@@ -10,14 +11,15 @@ use std::collections::HashMap;
 /// The points `x` with `normal x = offset`, in file coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// Of any length but zero.
+    /// Of any length but 0.
     pub normal: [f64; 3],
     /// In units of the normal's length.
     pub offset: f64,
 }
 
-/// Where a volume meets a plane: triangles that face the way of its normal, with the fields interpolated. Tetrahedra that only touch
-/// the plane give nothing, so that a plane along faces shows one side. Nothing at all for a normal of no length. O(n).
+/// Where a volume meets a plane: triangles that face along the normal of the plane, with
+/// interpolated fields. A tetrahedron that only touches the plane gives nothing, so a plane along
+/// faces gives one side. Empty for a normal of length 0. O(n).
 pub fn slice(volume: &TetrahedronMesh, plane: &Plane) -> TriangleMesh {
     let Plane { normal, offset } = *plane;
     let offset = offset - dot(normal, volume.origin);
