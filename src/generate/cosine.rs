@@ -1,14 +1,15 @@
-//! The ripple on which Ciampalini, Cignoni, Montani and Scopigno (The Visual Computer, 1997, figures 2, 3 and 5) show
-//! how the error of their decimation rises.
+//! The ripple with which Ciampalini, Cignoni, Montani and Scopigno (The Visual Computer, 1997,
+//! figures 2, 3 and 5) show how the error of their decimation rises.
 
 use nephrite_formats::TriangleMesh;
 
 use super::{MAX_COUNT, lattice, mesh_of};
 
-/// The height field `z = cos(r) / (r + 0.001)`, `r` the distance from the z axis, over `x` and `y` in [-10, 10].
+/// The height field `z = cos(r) / (r + 0.001)`, `r` the distance from the z axis, over `x` and `y`
+/// in [-10, 10].
 ///
-/// `side * side` vertices and `2 * (side - 1)^2` triangles, row by row; `side` in `2..=MAX_COUNT`. The paper's mesh
-/// of 28,322 triangles is `cosine(120)`.
+/// `side * side` vertices and `2 * (side - 1)^2` triangles, row by row; `side` in `2..=MAX_COUNT`.
+/// The paper's mesh of 28,322 triangles is `cosine(120)`.
 ///
 /// ```
 /// assert_eq!(nephrite::generate::cosine(120).triangles.len(), 28_322);

@@ -1,4 +1,4 @@
-//! A cube of flat faces: what a decimator should bring down to twelve triangles at no error.
+//! A cube with flat faces. A decimator should reduce it to twelve triangles without error.
 
 use std::collections::HashMap;
 
@@ -22,7 +22,8 @@ pub fn cuboid(segments: u32) -> TriangleMesh {
             let mut face = Vec::with_capacity((segments as usize + 1).pow(2));
             for row in 0..=segments {
                 for column in 0..=segments {
-                    // The face at the far end sees (axis + 1, axis + 2) counter-clockwise, the one at zero the reverse.
+                    // The upper face has (axis + 1, axis + 2) counter-clockwise, the lower face the
+                    // reverse.
                     let mut point = if level == 0 { [level, row, column] } else { [level, column, row] };
                     point.rotate_right(axis);
                     let next = u32::try_from(ids.len()).unwrap_or(u32::MAX);

@@ -1,4 +1,5 @@
-//! A closed cylinder: one curved face, two flat ones that are fans of any valence, two sharp circles.
+//! A closed cylinder: one curved face, two sharp circles, and two flat faces that are fans of any
+//! valence.
 
 use std::f64::consts::TAU;
 
@@ -6,11 +7,12 @@ use nephrite_formats::TriangleMesh;
 
 use super::{MAX_COUNT, lattice, mesh_of};
 
-/// A cylinder of radius 1 about the z axis from `z = 0` to `z = 2`, each end a fan around its centre.
+/// A cylinder of radius 1 about the z axis from `z = 0` to `z = 2`, with a fan around the centre of
+/// each end.
 ///
-/// `2 * segments * (rings + 1)` triangles; vertices 0 and 1 are the centres of the bottom and the top, each of valence
-/// `segments`. `segments` in `3..=1,000,000`, `rings` in `1..=MAX_COUNT`, and fewer rings where their product would
-/// pass 400 million.
+/// `2 * segments * (rings + 1)` triangles. Vertices 0 and 1 are the centres of bottom and top, each
+/// of valence `segments`. `segments` in `3..=1,000,000`, `rings` in `1..=MAX_COUNT`, and fewer
+/// rings if the product would exceed 400 million.
 pub fn cylinder(segments: u32, rings: u32) -> TriangleMesh {
     let segments = segments.clamp(3, 1_000_000);
     let rings = rings.clamp(1, MAX_COUNT.min(400_000_000 / segments));

@@ -1,10 +1,11 @@
-//! Two triangles for every cell of a lattice, whatever its sides are glued to.
+//! Two triangles for every cell of a lattice, however its sides are joined.
 
-/// Triangles of `columns * rows` cells; `vertex(column, row)` names the vertex at a lattice point.
+/// Triangles of `columns * rows` cells; `vertex(column, row)` gives the vertex at a lattice point.
 ///
-/// `vertex` is asked for columns `0..=columns` and rows `0..=rows`; a surface that closes on itself answers with the
-/// vertex at the other side. Triangles are counter-clockwise when columns run to the right and rows upwards, and every
-/// cell is cut from its lower left corner to its upper right one.
+/// `vertex` is called for columns `0..=columns` and rows `0..=rows`. For a surface that closes on
+/// itself it returns the vertex at the other side. Triangles are counter-clockwise if columns run
+/// to the right and rows upwards. Every cell is cut from its lower left corner to its upper right
+/// one.
 pub(super) fn triangles(columns: u32, rows: u32, vertex: impl Fn(u32, u32) -> u32) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(2 * columns as usize * rows as usize);
     for row in 0..rows {

@@ -1,8 +1,9 @@
-//! Surfaces made from formulas: what demonstrations, tests and benches need without a file.
+//! Surfaces and volumes from formulas, for demonstrations, tests and benches that need no file.
 //!
-//! Every generator is deterministic, computes in `f64` and rounds each coordinate once to `f32`; the origin is zero and
-//! there are no attributes. Surfaces that enclose a volume are closed to the last edge and oriented outwards. A count
-//! outside the range that a generator states is moved to the nearer end of it, so that none of them can fail.
+//! Every generator is deterministic, computes in `f64` and rounds each coordinate to `f32` once.
+//! The origin is zero and surfaces have no attributes. Surfaces that enclose a volume are closed
+//! and oriented outwards. A count outside the range that a generator states is clamped to it, so no
+//! generator fails.
 
 mod cosine;
 mod cuboid;
@@ -31,7 +32,7 @@ pub use volumes::{ball_volume, box_volume};
 
 use nephrite_formats::TriangleMesh;
 
-/// Largest count along one direction that any generator accepts: its square still fits a `u32` index.
+/// Largest count along one direction that any generator accepts; its square fits a `u32` index.
 pub const MAX_COUNT: u32 = 20_000;
 
 /// The mesh of these positions, each coordinate rounded to the nearest `f32`.

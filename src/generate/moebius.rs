@@ -9,10 +9,12 @@ use super::{MAX_COUNT, lattice, mesh_of};
 /// Half the width of the strip.
 const HALF_WIDTH: f64 = 0.4;
 
-/// A Moebius strip of width 0.8 around the unit circle, `segments` cells long and `rows` cells wide.
+/// A Moebius strip of width 0.8 around the unit circle, `segments` cells long and `rows` cells
+/// wide.
 ///
-/// `2 * segments * rows` triangles; `segments` in `5..=MAX_COUNT`, `rows` in `1..=MAX_COUNT - 1`. Neighbouring
-/// triangles agree on their orientation everywhere but across the edges where the last column meets the first.
+/// `2 * segments * rows` triangles; `segments` in `5..=MAX_COUNT`, `rows` in `1..=MAX_COUNT - 1`.
+/// Neighbouring triangles have the same orientation except across the edges at which the last
+/// column meets the first.
 pub fn moebius(segments: u32, rows: u32) -> TriangleMesh {
     let [segments, rows] = [segments.clamp(5, MAX_COUNT), rows.clamp(1, MAX_COUNT - 1)];
     let mut positions = Vec::with_capacity(segments as usize * (rows as usize + 1));

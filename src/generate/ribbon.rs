@@ -1,13 +1,15 @@
-//! A polyline given a width: curves in the plane seen as surfaces.
+//! A polyline with a width: plane curves as surfaces.
 
 use nephrite_formats::TriangleMesh;
 
 use super::{lattice, mesh_of};
 
-/// The points `[x, z]` of `profile` swept along y from 0 to `width`: two triangles for every segment.
+/// The points `[x, z]` of `profile` swept along y from 0 to `width`: two triangles for every
+/// segment.
 ///
-/// Vertices `0..n` lie at `y = 0` and `n..2 * n` at `y = width`, each in the order of the profile; the surface looks
-/// upwards where the profile runs to the right. A profile of fewer than two points gives no triangle.
+/// Vertices `0..n` are at `y = 0` and `n..2 * n` at `y = width`, each in the order of the profile.
+/// The surface faces upwards if the profile runs to the right. A profile of fewer than two points
+/// gives no triangle.
 pub fn ribbon(profile: &[[f64; 2]], width: f64) -> TriangleMesh {
     let n_points = u32::try_from(profile.len()).unwrap_or(u32::MAX).min(u32::MAX / 2);
     let profile = &profile[..n_points as usize];

@@ -1,4 +1,5 @@
-//! A sphere of nearly equal triangles: an icosahedron whose faces are subdivided and pushed outwards.
+//! A sphere of nearly equal triangles: an icosahedron whose faces are subdivided and projected
+//! outwards.
 
 use std::collections::HashMap;
 
@@ -10,10 +11,11 @@ use crate::geometry::vector::{cross, dot, length, scale, sub};
 /// Largest frequency: 20 million triangles.
 const MAX_FREQUENCY: u32 = 1000;
 
-/// The unit sphere about the zero point, every edge of an icosahedron cut into `frequency` parts.
+/// The unit sphere about the origin: an icosahedron with every edge cut into `frequency` parts.
 ///
-/// `20 * frequency^2` triangles over `10 * frequency^2 + 2` vertices, all on the sphere to the last bit of `f32`;
-/// `frequency` in `1..=1000`. The volume enclosed is a little smaller than the ball's.
+/// `20 * frequency^2` triangles over `10 * frequency^2 + 2` vertices, all on the sphere to the
+/// precision of `f32`; `frequency` in `1..=1000`. The enclosed volume is a little smaller than that
+/// of the ball.
 pub fn sphere(frequency: u32) -> TriangleMesh {
     let frequency = frequency.clamp(1, MAX_FREQUENCY);
     let corners = icosahedron();
@@ -37,7 +39,7 @@ pub fn sphere(frequency: u32) -> TriangleMesh {
     mesh_of(&surface.positions, triangles)
 }
 
-/// The frequency whose sphere has the number of triangles nearest to `n_triangles`.
+/// The frequency of the sphere whose number of triangles is nearest to `n_triangles`.
 pub fn sphere_frequency(n_triangles: u32) -> u32 {
     let count = |frequency: u32| 20 * frequency * frequency;
     let below = (n_triangles / 20).isqrt().clamp(1, MAX_FREQUENCY - 1);
@@ -48,10 +50,10 @@ pub fn sphere_frequency(n_triangles: u32) -> u32 {
     }
 }
 
-/// A corner of the icosahedron and its share of a point, in parts of the frequency.
+/// A corner of the icosahedron and its share of a point, in units of `1 / frequency`.
 type Share = (u32, u32);
 
-/// Vertices so far, found again from whichever face asks for them.
+/// Vertices so far, shared by all faces.
 struct Surface {
     corners: [[f64; 3]; 12],
     ids: HashMap<[Share; 3], u32>,
@@ -61,7 +63,8 @@ struct Surface {
 impl Surface {
     /// The vertex in the direction of the weighted sum of three corners.
     ///
-    /// Corners without weight are forgotten and the others sorted, so that the faces at an edge agree on its vertices.
+    /// Corners of weight 0 are left out and the others sorted, so that the faces at an edge share
+    /// its vertices.
     fn vertex(&mut self, mut shares: [Share; 3]) -> u32 {
         for share in &mut shares {
             if share.1 == 0 {

@@ -1,6 +1,8 @@
-//! Rolling hills: a height field of value noise summed over octaves, after Perlin (SIGGRAPH 1985) in its simplest form.
+//! Rolling hills: a height field of value noise summed over octaves, after Perlin (SIGGRAPH 1985)
+//! in its simplest form.
 //!
-//! Only additions and multiplications of `f64` are used, so a seed gives the same bits on every machine.
+//! It uses additions and multiplications of `f64` only, so a seed gives the same bits on every
+//! machine.
 
 use nephrite_formats::TriangleMesh;
 
@@ -10,13 +12,13 @@ use super::{MAX_COUNT, lattice, mesh_of};
 const EXTENT: f64 = 1000.0;
 /// Height of the first octave above zero.
 const AMPLITUDE: f64 = 160.0;
-/// Each octave halves wavelength and height; the tenth is a hill of 2 on 0.3.
+/// Each octave halves wavelength and height; the tenth has hills of height 0.3 and length 2.
 const N_OCTAVES: u32 = 10;
 
 /// A terrain over [0, 1000]^2 whose heights lie in [0, 320].
 ///
-/// `side * side` vertices and `2 * (side - 1)^2` triangles, row by row; `side` in `2..=MAX_COUNT`. A finer side
-/// samples the same hills more densely; another `seed` gives other hills.
+/// `side * side` vertices and `2 * (side - 1)^2` triangles, row by row; `side` in `2..=MAX_COUNT`.
+/// A finer side samples the same hills more densely; another `seed` gives other hills.
 pub fn terrain(side: u32, seed: u64) -> TriangleMesh {
     let side = side.clamp(2, MAX_COUNT);
     let mut positions = Vec::with_capacity(side as usize * side as usize);
@@ -49,7 +51,7 @@ fn noise(x: f64, y: f64, seed: u64) -> f64 {
     mix(low, high, t)
 }
 
-/// A step from 0 to 1 without a bend at either end: its first two derivatives vanish there.
+/// A smooth step from 0 to 1: its first two derivatives are 0 at both ends.
 fn fade(t: f64) -> f64 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
 }

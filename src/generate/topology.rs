@@ -1,4 +1,5 @@
-//! Counts that say whether a surface is closed, oriented and of the right genus: the tests' check on the generators.
+//! Counts that tell whether a surface is closed, oriented and of the right genus. The tests check
+//! the generators with them.
 
 use std::collections::HashMap;
 
@@ -53,7 +54,7 @@ impl Topology {
         self.is_manifold && self.n_boundary_edges == 0
     }
 
-    /// Volume enclosed by a closed mesh, negative where its triangles look inwards.
+    /// Volume enclosed by a closed mesh; negative if its triangles face inwards.
     pub(super) fn volume(mesh: &TriangleMesh) -> f64 {
         let corner = |vertex: u32| mesh.positions[vertex as usize].map(f64::from);
         let sixfold: f64 = mesh

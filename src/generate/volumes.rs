@@ -5,8 +5,9 @@ use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh};
 /// Largest count of cells along one direction of a volume.
 const MAX_CELLS: u32 = 400;
 
-/// The box [0, 1]^3 in `cells` hexahedra along each axis (each in `1..=400`), five tetrahedra a hexahedron, alternating so that those
-/// of neighbours fit. The field `linear` is `1 + 2 x + 3 y - 4 z`, in `f64`.
+/// The box [0, 1]^3 in `cells` hexahedra along each axis (each in `1..=400`), five tetrahedra per
+/// hexahedron. The cut alternates so that neighbours share their faces. The field `linear` is `1 +
+/// 2 x + 3 y - 4 z`, in `f64`.
 pub fn box_volume(cells: [u32; 3]) -> TetrahedronMesh {
     let cells = cells.map(|n| n.clamp(1, MAX_CELLS));
     let mut mesh = lattice(cells, |point| point);
@@ -18,8 +19,8 @@ pub fn box_volume(cells: [u32; 3]) -> TetrahedronMesh {
     mesh
 }
 
-/// The unit ball, a lattice of `cells` hexahedra along each axis (in `1..=400`) with its cube pressed into the sphere. The field
-/// `radius` is the distance from the centre, in `f32`.
+/// The unit ball: a lattice of `cells` hexahedra along each axis (in `1..=400`) whose cube is
+/// mapped to the ball. The field `radius` is the distance from the centre, in `f32`.
 pub fn ball_volume(cells: u32) -> TetrahedronMesh {
     let cells = cells.clamp(1, MAX_CELLS);
     let mut mesh = lattice([cells; 3], |point| {
@@ -49,7 +50,8 @@ fn lattice([ni, nj, nk]: [u32; 3], place: impl Fn([f64; 3]) -> [f64; 3]) -> Tetr
     for k in 0..nk {
         for j in 0..nj {
             for i in 0..ni {
-                // Corner `c` of a cell is one step along axis `a` where bit `a` of `c` is set; odd cells are mirrored.
+                // Corner `c` of a cell is one step along axis `a` where bit `a` of `c` is set; odd
+                // cells are mirrored.
                 let mirror = if (i + j + k) % 2 == 1 { 1 } else { 0 };
                 let corner = |c: u32| {
                     let c = c ^ mirror;

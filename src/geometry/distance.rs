@@ -1,17 +1,19 @@
 //! Closest points and squared distances between points, segments and triangles.
 //!
-//! The textbook way to a triangle's closest point decides one of seven Voronoi regions from signs of 2 x 2
-//! determinants (Ericson, *Real-Time Collision Detection*, 2005, section 5.1.5). On a needle those signs are rounding
-//! noise and the answer can be any point of it. Here the three edges are always candidates, each a clamped projection
-//! that cannot go wrong, and the foot of the perpendicular is one more where it falls inside. Segments likewise: the
-//! four end points always compete with the interior solution.
+//! The textbook way to a triangle's closest point decides one of seven Voronoi regions from signs
+//! of 2 x 2 determinants (Ericson, *Real-Time Collision Detection*, 2005, section 5.1.5). On a
+//! needle those signs are rounding noise and the answer can be any point of it. Here the three
+//! edges are always candidates, each a clamped projection that cannot go wrong, and the foot of the
+//! perpendicular is one more where it falls inside. Segments likewise: the four end points always
+//! compete with the interior solution.
 //!
-//! Consequences that the proofs rest on, for finite input of magnitude at most `m` (any `f32`, sums and differences of
-//! them), with `eps = f64::EPSILON`:
-//! * every answer is the distance to a point *of* the triangle or segment, so it falls below the true distance by at
-//!   most `16 eps m`;
-//! * it exceeds the true distance by about as much, except that for a triangle with `sin(angle at a) = s` the foot may
-//!   be off sideways by `eps m / s`, and never by more than the radius of the inscribed circle;
+//! Consequences that the proofs rest on, for finite input of magnitude at most `m` (any `f32`, sums
+//! and differences of them), with `eps = f64::EPSILON`:
+//! * every answer is the distance to a point *of* the triangle or segment, so it falls below the
+//!   true distance by at most `16 eps m`;
+//! * it exceeds the true distance by about as much, except that for a triangle with `sin(angle at
+//!   a) = s` the foot may be off sideways by `eps m / s`, and never by more than the radius of the
+//!   inscribed circle;
 //! * degenerate triangles and segments (collinear, coincident corners) need no case of their own.
 
 use super::vector::{Vector, add_scaled, cross, dot, length_sq, sub};
@@ -22,8 +24,8 @@ pub type Triangle = [Vector; 3];
 /// End points of a segment.
 pub type Segment = [Vector; 2];
 
-/// Triangles whose angle at the first corner has a squared sine below this ask their edges even if the foot of the
-/// perpendicular seems to be inside.
+/// If the angle at the first corner of a triangle has a squared sine below this, its edges are
+/// compared too, even if the foot of the perpendicular seems to be inside.
 const NEEDLE_SINE_SQ: f64 = 1e-6;
 
 /// Squared distance between a point and a segment.
@@ -67,7 +69,7 @@ pub fn point_triangle_distance_sq(p: Vector, [a, b, c]: &Triangle) -> f64 {
 pub fn closest_on_triangle(p: Vector, triangle: &Triangle) -> Vector {
     let [wa, wb, wc] = closest_weights(p, triangle);
     let [a, b, c] = *triangle;
-    // The heaviest corner is the base, so that a point on a corner or an edge comes out on it.
+    // The corner of largest weight is the base, so that a point on a corner or an edge is exact.
     if wa >= wb && wa >= wc {
         add_scaled(add_scaled(a, wb, sub(b, a)), wc, sub(c, a))
     } else if wb >= wc {
@@ -77,7 +79,8 @@ pub fn closest_on_triangle(p: Vector, triangle: &Triangle) -> Vector {
     }
 }
 
-/// Barycentric weights, none negative and with sum 1, of the point of a triangle that is closest to `p`.
+/// Barycentric weights, none negative and with sum 1, of the point of a triangle that is closest to
+/// `p`.
 #[inline]
 pub fn closest_weights(p: Vector, [a, b, c]: &Triangle) -> [f64; 3] {
     let (ab, ac, ap) = (sub(*b, *a), sub(*c, *a), sub(p, *a));
@@ -143,18 +146,19 @@ pub fn closest_between_segments(first: Segment, second: Segment) -> (Vector, Vec
     (add_scaled(a, best.0, ab), add_scaled(c, best.1, cd))
 }
 
-/// Parameter in `[0, 1]` of the point closest to `a + ap` on the segment from `a` to `a + ab`; 0 where `ab` is zero.
+/// Parameter in `[0, 1]` of the point closest to `a + ap` on the segment from `a` to `a + ab`; 0 if
+/// `ab` is zero.
 #[expect(clippy::manual_clamp, reason = "clamp would let the NaN of 0 / 0 through, max turns it into 0")]
 #[inline(always)]
 fn foot_on_edge(ab: Vector, ap: Vector) -> f64 {
     (dot(ab, ap) / length_sq(ab)).max(0.0).min(1.0)
 }
 
-/// Weights `v`, `w` of the perpendicular's foot `a + v ab + w ac` if it lies inside the triangle, and whether the
-/// triangle is too thin to trust them.
+/// Weights `v`, `w` of the perpendicular's foot `a + v ab + w ac` if it lies inside the triangle,
+/// and whether the triangle is too thin to trust them.
 #[inline(always)]
 fn foot_inside(ab: Vector, ac: Vector, ap: Vector) -> Option<(f64, f64, bool)> {
-    // Cross products lose `1 / sin` of the accuracy where the usual Gram determinants lose its square.
+    // Cross products lose a factor `1 / sin` of accuracy, the usual Gram determinants its square.
     let normal = cross(ab, ac);
     let normal_sq = length_sq(normal);
     let v = dot(cross(ap, ac), normal);
@@ -196,8 +200,8 @@ mod tests {
 
     const UNIT: Triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-    /// Least distance to a triangle, by golden-section search in both barycentric directions: a convex minimisation
-    /// that shares nothing with the regions above.
+    /// Least distance to a triangle, by golden-section search in both barycentric directions: a
+    /// convex minimisation that shares nothing with the regions above.
     fn naive_triangle_distance(p: Vector, [a, b, c]: Triangle) -> f64 {
         let along = |t: f64| naive_segment_distance(p, [lerp(a, b, t), lerp(a, c, t)]);
         golden_section(along)
@@ -338,7 +342,8 @@ mod tests {
             prepared.distances_sq([&[p[0]; 3], &[p[1]; 3], &[p[2]; 3]], &mut many);
             prop_assert!(many.iter().all(|found| (found.sqrt() - plain).abs() < 1e-12), "many {:?}", many);
             let prepared = prepared.distance_sq(p).sqrt();
-            // A foot beside a needle may be off by rounding over its sine, 1e-3 at least where the edges are not asked.
+            // A foot beside a needle may be off by rounding over its sine, 1e-3 at least where the
+            // edges are not asked.
             prop_assert!((plain - prepared).abs() < 1e-12, "plain {}, prepared {}", plain, prepared);
         }
 

@@ -1,10 +1,11 @@
-//! An order in which what is near in space is near in memory.
+//! An order in which neighbours in space are neighbours in memory.
 //!
-//! Reference: G. M. Morton: "A computer oriented geodetic data base and a new technique in file sequencing" (IBM, 1966).
+//! Reference: G. M. Morton: "A computer oriented geodetic data base and a new technique in file
+//! sequencing" (IBM, 1966).
 
 use super::bounds::Bounds;
 
-/// A grid of 2^21 cells a side around a mesh, whose cells are numbered along a Morton curve.
+/// A grid of 2^21 cells along each axis around a mesh. The cells are numbered along a Morton curve.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     min: [f64; 3],

@@ -1,17 +1,19 @@
 //! Triangles prepared for many distances.
 //!
-//! Each triangle gets an orthonormal frame with its longest edge on the first axis and its plane spanned by the first
-//! two. A point's distance is then its height over the plane together with a distance in the plane, and there every edge
-//! costs two inner products of two terms: about half the work of three dimensions, no division and no branch.
+//! Each triangle gets an orthonormal frame with its longest edge on the first axis and its plane
+//! spanned by the first two. The distance of a point is then its height over the plane together
+//! with a distance in the plane, where each edge costs two inner products of two terms: about half
+//! the work of three dimensions, with no division and no branch.
 //!
-//! The frame is taken from the triangle's own corners, so it holds them to within rounding however thin the triangle
-//! is, and what was said of accuracy in [`super::distance`] is true here without the exception for needles: a distance
-//! is wrong by at most `16 f64::EPSILON` times the largest coordinate.
+//! The frame is taken from the corners of the triangle and holds them to within rounding, however
+//! thin the triangle is. So the accuracy stated in [`super::distance`] holds here without the
+//! exception for needles: a distance is wrong by at most `16 f64::EPSILON` times the largest
+//! coordinate.
 
 use super::distance::Triangle;
 use super::vector::{Vector, add_scaled, cross, dot, length, length_sq, scale, sub};
 
-/// A triangle with what its distances have in common computed once.
+/// A triangle with the common part of its distances computed once.
 ///
 /// ```text
 ///   y |        c
@@ -22,7 +24,7 @@ use super::vector::{Vector, add_scaled, cross, dot, length, length_sq, scale, su
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedTriangle {
-    /// Where the longest edge begins.
+    /// Start of the longest edge.
     a: Vector,
     /// Unit vectors along the longest edge, across it in the plane, and out of the plane.
     frame: [Vector; 3],
@@ -37,7 +39,7 @@ pub struct PreparedTriangle {
 /// An edge in the plane of its triangle.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
-    /// Unit vector; any one for an edge without length.
+    /// Unit vector; any direction for an edge of length 0.
     direction: [f64; 2],
     length: f64,
 }
@@ -63,26 +65,27 @@ impl PreparedTriangle {
         }
     }
 
-    /// Squared distance of a point. Takes about 8 ns.
+    /// Squared distance of a point. About 8 ns.
     #[inline(always)]
     pub fn distance_sq(&self, p: Vector) -> f64 {
         let from_a = sub(p, self.a);
         let [x, y, height] = self.frame.map(|axis| dot(from_a, axis));
-        // Of each edge: how far outside of it the point is, and how far from it.
+        // For each edge: how far outside of it the point is, and how far from it.
         let beyond_ab = overhang(x, self.ab);
         let ab_sq = y * y + beyond_ab * beyond_ab;
         let (outside_ac, ac_sq) = self.ac.compare(x, y);
         let (inside_bc, bc_sq) = self.bc.compare(x - self.ab, y);
         let outside = larger(larger(-y, outside_ac), -inside_bc);
         let edges_sq = smaller(smaller(ab_sq, ac_sq), bc_sq);
-        // Not `outside <= 0`: nothing is inside a triangle without area, and on an edge that edge is the answer.
+        // Not `outside <= 0`: nothing is inside a triangle without area, and for a point on an edge
+        // the edge gives the answer.
         let plane_sq = if outside < 0.0 { 0.0 } else { edges_sq };
         plane_sq + height * height
     }
 
     /// Squared distances of many points, given coordinate by coordinate.
     ///
-    /// Shapes: all four slices have one length. Takes about 3 ns a point.
+    /// Shapes: all four slices have the same length. About 3 ns per point.
     #[inline(always)]
     pub fn distances_sq(&self, [x, y, z]: [&[f64]; 3], distances_sq: &mut [f64]) {
         for (((x, y), z), distance_sq) in x.iter().zip(y).zip(z).zip(distances_sq) {
@@ -98,7 +101,8 @@ impl Edge {
         Self { direction, length }
     }
 
-    /// Distance to the left of the edge, and squared distance from it, of a point seen from its start.
+    /// Distance to the left of the edge, and squared distance from it, of a point relative to the
+    /// start of the edge.
     #[inline(always)]
     fn compare(&self, x: f64, y: f64) -> (f64, f64) {
         let [along_x, along_y] = self.direction;
@@ -108,21 +112,22 @@ impl Edge {
     }
 }
 
-/// How far a number lies outside the interval from 0 to `length`, with sign.
+/// Signed distance by which a number lies outside the interval from 0 to `length`.
 #[inline(always)]
 fn overhang(t: f64, length: f64) -> f64 {
     t - smaller(larger(t, 0.0), length)
 }
 
-/// The unit vector of the part of `v` that is perpendicular to the unit vector `axis`; nothing if that part is rounding.
+/// The unit vector of the part of `v` that is perpendicular to the unit vector `axis`; `None` if
+/// that part is rounding.
 fn unit_across(v: Vector, axis: Vector) -> Option<Vector> {
     let across = unit(add_scaled(v, -dot(v, axis), axis))?;
-    // Orthogonal after two passes, or else the first one left little but rounding.
+    // Two passes make it orthogonal; if not, the first one left little but rounding.
     let again = add_scaled(across, -dot(across, axis), axis);
     if length(again) > 0.5 { unit(again) } else { None }
 }
 
-/// The vector of length 1 in the same direction, if there is one.
+/// The vector of length 1 in the same direction, if `v` has a direction.
 fn unit(v: Vector) -> Option<Vector> {
     let length = length(v);
     (length > 0.0)

@@ -1,4 +1,5 @@
-//! The fourteen planes onto which a hole's border is projected, in the paper's order (JADE, section 6).
+//! The fourteen planes onto which the border of a hole is projected, in the order of the paper
+//! (JADE, section 6).
 
 use crate::geometry::vector::{Vector, cross, dot, length_sq, scale, sub};
 
@@ -8,7 +9,8 @@ pub type Point2 = [f64; 2];
 const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const T: f64 = 0.577_350_269_189_625_8;
 
-/// Normals of the planes after the average plane: three axes, six bisectors of axis pairs, four octant diagonals.
+/// Normals of the planes after the average plane: three axes, six bisectors of axis pairs, four
+/// octant diagonals.
 const FIXED_NORMALS: [Vector; 13] = [
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -25,7 +27,7 @@ const FIXED_NORMALS: [Vector; 13] = [
     [T, T, -T],
 ];
 
-/// Normals of the fourteen planes: the average plane first, left out where the star has no area.
+/// Normals of the fourteen planes: the average plane first, unless the star has no area.
 pub fn plane_normals(average: Vector) -> impl Iterator<Item = Vector> {
     let size_sq = length_sq(average);
     let unit = (size_sq > 0.0 && size_sq.is_finite()).then(|| scale(average, 1.0 / size_sq.sqrt()));
@@ -62,7 +64,7 @@ impl Plane {
     }
 }
 
-/// Twice the signed area of the triangle `a b c`: positive when it turns left.
+/// Twice the signed area of the triangle `a b c`: positive if it turns left.
 #[inline]
 pub fn turn(a: Point2, b: Point2, c: Point2) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -74,7 +76,7 @@ pub fn polygon_area(polygon: &[Point2]) -> f64 {
     rest.windows(2).map(|pair| turn(first, pair[0], pair[1])).sum()
 }
 
-/// Whether no two edges of the polygon meet except neighbours at their common corner. O(n^2).
+/// Whether no two edges of the polygon meet, apart from neighbours at their common corner. O(n^2).
 pub fn is_simple(polygon: &[Point2]) -> bool {
     let n = polygon.len();
     let edge = |i: usize| (polygon[i], polygon[if i + 1 == n { 0 } else { i + 1 }]);

@@ -1,8 +1,8 @@
-//! Whether a history is one: what every later stage relies on.
+//! The invariants of a history, which every later stage relies on.
 
 use super::{History, NEVER};
 
-/// A history that breaks an invariant, by whoever recorded it.
+/// A history that breaks an invariant.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HistoryError {
@@ -16,7 +16,7 @@ pub enum HistoryError {
         /// Length of the array it belongs to.
         expected: u64,
     },
-    /// More simplices, vertices or steps than 32 bits count.
+    /// More simplices, vertices or steps than 32 bits can count.
     #[error("{found} {what} exceed the range of 32-bit ids")]
     TooMany {
         /// `simplices`, `vertices` or `steps`.
@@ -37,7 +37,7 @@ pub enum HistoryError {
         /// Error of the step before, or zero.
         before: f64,
     },
-    /// A deviation is negative or not finite, falls, or has another length than the errors.
+    /// A deviation is negative, not finite or falling, or has another length than the errors.
     #[error("deviation {deviation} is not one number per step that never falls")]
     Deviation {
         /// Which one.
@@ -55,7 +55,7 @@ pub enum HistoryError {
         /// Last step.
         n_steps: u32,
     },
-    /// A simplex uses a vertex that is not there for all of its life.
+    /// A simplex uses a vertex that dies before it.
     #[error("simplex {simplex} lives until step {death}, its vertex {vertex} until {vertex_death:?}")]
     Vertex {
         /// Which simplex.
@@ -64,10 +64,10 @@ pub enum HistoryError {
         death: u32,
         /// The vertex.
         vertex: u32,
-        /// Death of the vertex, or nothing where there is no such vertex.
+        /// Death of the vertex; `None` if there is no such vertex.
         vertex_death: Option<u32>,
     },
-    /// A simplex uses a vertex that is not there yet when it is born.
+    /// A simplex uses a vertex that is born after it.
     #[error("simplex {simplex} is born at step {birth}, its vertex {vertex} at step {vertex_birth}")]
     UnbornVertex {
         /// Which simplex.
@@ -110,7 +110,7 @@ pub enum HistoryError {
 }
 
 impl<const CORNERS: usize> History<CORNERS> {
-    /// Steps after the input: the last index into `errors`, 0 for an empty table.
+    /// Number of steps after the input: the last index into `errors`; 0 for an empty table.
     pub fn n_steps(&self) -> u32 {
         u32::try_from(self.errors.len().saturating_sub(1)).unwrap_or(u32::MAX)
     }
@@ -119,7 +119,7 @@ impl<const CORNERS: usize> History<CORNERS> {
     ///
     /// # Errors
     ///
-    /// The first invariant that is broken.
+    /// The first invariant that does not hold.
     pub fn check(&self) -> Result<(), HistoryError> {
         self.check_lengths()?;
         self.check_errors()?;
@@ -183,7 +183,7 @@ impl<const CORNERS: usize> History<CORNERS> {
         ];
         for (what, len) in lengths {
             let found = len as u64;
-            // NEVER must stay distinct from every step.
+            // NEVER must differ from every step.
             if found >= u64::from(NEVER) {
                 return Err(HistoryError::TooMany { what, found });
             }

@@ -1,39 +1,44 @@
-//! The dead of a decimation, packed.
+//! The dead simplices of a decimation, in few bytes.
 //!
-//! Some five triangles die for every vertex of the input, and nobody reads them before the decimator is done. As a history holds them
-//! they take 20 bytes each, and would be the most of what a build keeps in memory. But those that die together share corners, births
-//! and the step: written as differences from the one before, a triangle takes 6 to 8 bytes.
+//! Some five triangles die for every vertex of the input, and nothing reads them until the
+//! decimator has ended. In the form of a history they take 20 bytes each and would be most of the
+//! memory of a build. Triangles that die together share corners, births and the step; written as
+//! differences from the record before, a triangle takes 6 to 8 bytes.
 //!
-//! Which corners a record has and how long its numbers are follows no pattern that a processor could guess. So there are no branches for
-//! either: a number is a word that is written whole, and the next begins where its last byte that counts ends, or where it began itself.
+//! No branch predictor can guess which corners a record shares and how long its numbers are. So
+//! neither is a branch: a number is written as one whole word, and the next number begins where the
+//! last significant byte of the word ends, or at the start of the word if it has none.
 
-/// Bytes of a chunk. Chunks neither move while they fill nor stay when they have been read: allocators map blocks of this size.
+/// Bytes of a chunk. A chunk does not move while it fills, and is freed when it has been read;
+/// allocators map blocks of this size.
 const CHUNK_BYTES: usize = 1 << 17;
 
-/// Most bytes of a number: its 35 bits, seven a byte.
+/// Most bytes of a number: 35 bits, 7 per byte.
 const MAX_NUMBER_BYTES: usize = 5;
 
-/// Bytes that are written or read for a number, whatever its length.
+/// Bytes written or read for a number, whatever its length.
 const WORD_BYTES: usize = size_of::<u64>();
 
-/// Room for a record, the last of its numbers as a whole word: corner codes, up to four corners, birth and step.
+/// Room for one record, with its last number as a whole word: corner codes, up to four corners,
+/// birth and step.
 const ROOM_BYTES: usize = 1 + (4 + 1) * MAX_NUMBER_BYTES + WORD_BYTES;
 
-/// Code of a corner that is none of the first three of the simplex before.
+/// Code of a corner that is not among the first three of the record before.
 const NEW: u8 = 3;
 
-/// Values of a birth before those that tell an age.
+/// Values of a birth below those that give an age.
 const BIRTH_AS_BEFORE: u64 = 0;
 const BIRTH_AT_START: u64 = 1;
 const FIRST_AGE: u64 = 2;
 
-/// How many steps after the one before a simplex dies, in the lowest bits of its birth: none, one, or a number that follows.
+/// How many steps after the record before a simplex dies, in the lowest bits of its birth: 0, 1, or
+/// a number that follows.
 const LATER: u64 = 2;
 const STEP_BITS: u32 = 2;
 
-/// Simplices in order of death, with births and deaths, of up to four corners.
+/// Simplices of up to four corners in order of death, with births and deaths.
 ///
-/// Memory: 6 to 8 bytes per triangle where neighbours have near numbers, at most 32.
+/// Memory: 6 to 8 bytes per triangle if neighbours have similar numbers, at most 32.
 #[derive(Clone, Debug)]
 pub(super) struct Deaths<const CORNERS: usize> {
     chunks: Vec<Chunk>,
@@ -41,7 +46,7 @@ pub(super) struct Deaths<const CORNERS: usize> {
     last: Record<CORNERS>,
 }
 
-/// Records one after the other, with room for one more behind them.
+/// Records one after the other, with room for one more after them.
 #[derive(Clone, Debug)]
 struct Chunk {
     bytes: Vec<u8>,
@@ -58,28 +63,28 @@ pub(super) struct Record<const CORNERS: usize> {
 }
 
 impl<const CORNERS: usize> Record<CORNERS> {
-    /// What the first one is written as a difference from.
+    /// The first record is written as a difference from this one.
     const START: Self = Self { simplex: [0; CORNERS], birth: 0, death: 0 };
 }
 
 impl<const CORNERS: usize> Deaths<CORNERS> {
-    /// Nobody has died.
+    /// An empty list.
     pub(super) fn new() -> Self {
         const { assert!(CORNERS <= 4, "a room is for so many corners") };
         Self { chunks: vec![], len: 0, last: Record::START }
     }
 
-    /// How many have died.
+    /// Number of simplices that have died.
     pub(super) fn len(&self) -> usize {
         self.len
     }
 
-    /// Writes one down that dies no earlier than the one before, and after its birth.
+    /// Appends a record that dies no earlier than the last one, and after its own birth.
     pub(super) fn push(&mut self, record: Record<CORNERS>) {
         if self.chunks.last().is_none_or(|chunk| chunk.end + ROOM_BYTES > CHUNK_BYTES) {
             self.chunks.push(Chunk { bytes: vec![0; CHUNK_BYTES], end: 0 });
         }
-        // There is a last chunk, and room in it.
+        // The last chunk exists and has room.
         let Some(Chunk { bytes, end }) = self.chunks.last_mut() else { return };
         let Some(room) = bytes[*end..].first_chunk_mut() else { return };
         *end += write(room, record, self.last);
@@ -87,7 +92,7 @@ impl<const CORNERS: usize> Deaths<CORNERS> {
         self.len += 1;
     }
 
-    /// Shows `take` all of them in order, letting go of what has been read.
+    /// Passes all records to `take`, in order, and frees what has been read.
     pub(super) fn drain(self, mut take: impl FnMut(Record<CORNERS>)) {
         let mut last = Record::START;
         for Chunk { bytes, end } in self.chunks {
@@ -104,7 +109,7 @@ impl<const CORNERS: usize> Deaths<CORNERS> {
     }
 }
 
-/// Writes `record` as a difference from `last`; gives its bytes.
+/// Writes `record` as a difference from `last`; returns the number of bytes.
 fn write<const CORNERS: usize>(
     room: &mut [u8; ROOM_BYTES],
     record: Record<CORNERS>,
@@ -131,7 +136,7 @@ fn write<const CORNERS: usize>(
     len
 }
 
-/// The record at the beginning of `room`, and its bytes.
+/// The record at the beginning of `room`, and its number of bytes.
 fn read<const CORNERS: usize>(room: &[u8; ROOM_BYTES], last: Record<CORNERS>) -> (Record<CORNERS>, usize) {
     let mut simplex = last.simplex;
     let mut len = 1;
@@ -157,14 +162,14 @@ fn read<const CORNERS: usize>(room: &[u8; ROOM_BYTES], last: Record<CORNERS>) ->
     (Record { simplex, birth, death }, len)
 }
 
-/// Which of the first three corners of the simplex before `v` is, the first of them.
+/// The first of the first three corners of `last` that is `v`, or [`NEW`].
 #[expect(clippy::cast_possible_truncation, reason = "a place among three")]
 fn code<const CORNERS: usize>(last: &[u32; CORNERS], v: u32) -> u8 {
     let places = last.iter().enumerate().take(usize::from(NEW)).rev();
     places.fold(NEW, |code, (at, &corner)| if corner == v { at as u8 } else { code })
 }
 
-/// The difference of two numbers, small where they are near.
+/// The difference of two numbers as a number that is small if they are close.
 fn zigzag(v: u32, from: u32) -> u64 {
     let difference = i64::from(v) - i64::from(from);
     (difference << 1 ^ difference >> 63).cast_unsigned()
@@ -183,11 +188,11 @@ fn low(value: u64) -> u32 {
     value as u32
 }
 
-/// The highest bit of each byte of a number but its last.
+/// The highest bit of each byte of a number except the last.
 const MORE: u64 = 0x80_8080_8080;
 
-/// Writes a number of at most 35 bits by seven bits a byte, lowest first, the highest bit of each telling whether there are more; gives
-/// where it ends.
+/// Writes a number of at most 35 bits, 7 bits per byte, lowest first. The highest bit of a byte
+/// tells whether more follow. Returns the end.
 fn put(room: &mut [u8; ROOM_BYTES], at: usize, value: u64) -> usize {
     let n_bytes = 1 + (value | 1).ilog2() as usize / 7;
     let sevens = (0..MAX_NUMBER_BYTES).fold(0, |word, i| word | (value & 0x7f << (7 * i)) << i);
@@ -196,10 +201,10 @@ fn put(room: &mut [u8; ROOM_BYTES], at: usize, value: u64) -> usize {
     at + n_bytes
 }
 
-/// The number at a place, and where it ends.
+/// The number at a position, and its end.
 fn get(room: &[u8; ROOM_BYTES], at: usize) -> (u64, usize) {
     let word = room[at..].first_chunk().map_or(0, |&bytes| u64::from_le_bytes(bytes));
-    // The lowest byte without the bit is the last; all above its lowest bit goes.
+    // The lowest byte without the bit is the last one; clear everything above its lowest bit.
     let last = !word & MORE;
     let n_bytes = 1 + last.trailing_zeros() as usize / 8;
     let word = word & (last ^ last.wrapping_sub(1));

@@ -1,29 +1,30 @@
-//! Writes the history down while a decimator runs.
+//! Records the history while a decimator runs.
 
 use super::deaths::{Deaths, Record};
 use super::{History, NEVER};
 use crate::mesh::Renumbering;
 
-/// Farther than any two points with `f32` coordinates are apart.
+/// Larger than the distance between any two points with `f32` coordinates.
 const FARTHEST: f64 = 4.0 * f32::MAX as f64;
 
-/// Turns the comings and goings of simplices in slots into lifetimes.
+/// Turns births and deaths of simplices in slots into lifetimes.
 ///
-/// Memory: 4 bytes per slot, some 7 for each triangle that has died, and 16 whenever the error rises.
+/// Memory: 4 bytes per slot, some 7 per dead triangle, and 16 each time the error rises.
 #[derive(Clone, Debug)]
 pub struct Recorder<const CORNERS: usize = 3> {
     deaths: Deaths<CORNERS>,
     birth_in_slot: Vec<u32>,
-    /// Steps with a larger error than the one before, and that error; step 0 first.
+    /// Steps at which the error rises, and the error from there on; step 0 first.
     rises: Vec<(u32, f64)>,
     now: u32,
     n_vertices_in: usize,
-    /// Births of the vertices that the input does not have.
+    /// Births of the vertices that are not vertices of the input.
     vertex_births: Vec<u32>,
 }
 
 impl<const CORNERS: usize> Recorder<CORNERS> {
-    /// A recorder for an input of `n_slots` simplices over `n_vertices` vertices, at step 0 with the given error.
+    /// A recorder for an input of `n_slots` simplices over `n_vertices` vertices, at step 0 with
+    /// the given error.
     pub fn new(n_slots: usize, n_vertices: usize, error: f64) -> Self {
         Self {
             deaths: Deaths::new(),
@@ -35,8 +36,8 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         }
     }
 
-    /// Starts the next step. Its error is `error`, or that of the step before if that is larger; estimates that add up to more than any
-    /// distance is, or to no number, are that distance.
+    /// Starts the next step. Its error is `error`, or that of the last step if that is larger. NaN
+    /// and values beyond the largest possible distance are clamped to it.
     pub fn step(&mut self, error: f64) {
         self.now += 1;
         let error = error.min(FARTHEST);
@@ -45,7 +46,7 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         }
     }
 
-    /// Steps so far, the number of the current one.
+    /// Number of steps so far, which is the number of the current step.
     pub fn n_steps(&self) -> u32 {
         self.now
     }
@@ -70,7 +71,8 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         slots.close_up(&mut self.birth_in_slot);
     }
 
-    /// A vertex is born at this step; gives its index, the next after those there are. It dies like any other.
+    /// Gives birth to a vertex at this step and returns its index, the next free one. It dies like
+    /// any other vertex.
     pub fn vertex(&mut self) -> u32 {
         #[expect(
             clippy::cast_possible_truncation,
@@ -81,7 +83,8 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
         vertex
     }
 
-    /// The whole history, given what is alive now and in which slots. A vertex dies with the last simplex that uses it.
+    /// The whole history, given the simplices that are alive now and their slots. A vertex dies
+    /// with the last simplex that uses it.
     pub fn finish(self, alive: &[(u32, [u32; CORNERS])]) -> History<CORNERS> {
         let Self { deaths, birth_in_slot, rises, now, n_vertices_in, vertex_births } = self;
         let n_simplices = deaths.len() + alive.len();

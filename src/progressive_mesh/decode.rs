@@ -1,5 +1,5 @@
-//! Reading a stream, block by block. Whatever the bytes: a block is taken as a whole once every operation in it makes sense up to
-//! the first that does not.
+//! Reads a stream, block by block. Whatever the bytes, a block is taken as far as its operations
+//! are valid, up to the first that is not.
 
 use super::StreamError;
 use super::growth::Growth;
@@ -8,18 +8,20 @@ use nephrite_formats::neph;
 
 /// First four bytes of a stream.
 const MAGIC: u32 = 0x3153_504e;
-/// Operations of the first block; each block has twice as many as the one before, so that something can be seen early.
+/// Operations of the first block. Each block has twice as many as the one before, so that something
+/// is visible early.
 pub(super) const FIRST_BLOCK: usize = 256;
-/// Most operations of a block, but for one that takes several steps.
+/// Most operations of a block, unless its last one takes several steps.
 pub(super) const LARGEST_BLOCK: usize = 1 << 14;
-/// Operations, length and checksum.
+/// Bytes of the number of operations, the length and the checksum.
 pub(super) const BLOCK_HEADER_BYTES: usize = 12;
-/// Place among the neighbours of a corner that is none of them.
+/// Link of a corner that is not among the neighbours.
 pub(super) const ESCAPE: u8 = u8::MAX;
-/// Orders of the new vertex, the old one and the third.
+/// Orders of the new vertex, the old one and the third corner.
 pub(super) const ARRANGEMENTS: [[usize; 3]; 6] =
     [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]];
-/// Most bytes of attributes per vertex: more than any file has, and little enough to keep a plane for each.
+/// Most bytes of attributes per vertex: more than any file has, and few enough for a plane per
+/// byte.
 const MAX_STRIDE_BYTES: u32 = 1 << 14;
 
 /// The beginning of a stream.
@@ -65,10 +67,10 @@ pub(super) fn checksum(coded: &[u8]) -> u32 {
     neph::checksum(coded) as u32
 }
 
-/// What a stream may not make more of than [`Growth::may_move`] says.
+/// What [`Growth::may_move`] limits.
 pub(super) const MOVES: &str = "triangles move from star to star without end";
 
-/// What has been read.
+/// Everything that has been read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Decoder {
     pub(super) header: Option<Header>,
@@ -80,7 +82,8 @@ pub(super) struct Decoder {
 }
 
 impl Decoder {
-    /// Reads the header or one block from the front; gives its length, or 0 where it is not whole yet.
+    /// Reads the header or one block from the front; returns its length, or 0 if it is not complete
+    /// yet.
     pub(super) fn read(&mut self, bytes: &[u8]) -> Result<usize, StreamError> {
         let Some(header) = self.header else {
             let Some(bytes) = bytes.first_chunk() else { return Ok(0) };
@@ -198,7 +201,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// A vertex that is there.
+    /// Reads the number of a vertex that exists.
     fn take_vertex(&self, planes: &mut Planes) -> Result<u32, StreamError> {
         let vertex = planes.take_u32(plane::VERTICES)?;
         let n_there = self.positions.len();
@@ -219,7 +222,7 @@ impl Decoder {
         }
     }
 
-    /// A new vertex, and its number.
+    /// Reads a new vertex and returns its number.
     fn take_new(&mut self, planes: &mut Planes, near: usize) -> Result<u32, StreamError> {
         let number = self.positions.len();
         let stride = self.header.map_or(0, |header| header.stride_bytes as usize);
@@ -246,7 +249,7 @@ impl Decoder {
         Ok(count(number))
     }
 
-    /// Forgets the vertices of an operation that failed.
+    /// Removes the vertices of an operation that failed.
     fn undo_unless(&mut self, result: Result<(), StreamError>, n_vertices: usize) -> Result<(), StreamError> {
         if result.is_err() {
             self.positions.truncate(n_vertices);

@@ -8,12 +8,12 @@ use super::planes::{Planes, difference, plane};
 use crate::Build;
 use nephrite_formats::TriangleMesh;
 
-/// A stream and what it weighs.
+/// A stream and its sizes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Encoded {
     /// The stream.
     pub bytes: Vec<u8>,
-    /// Its length before coding.
+    /// Its length before compression.
     pub plain_bytes: usize,
     /// Operations.
     pub n_operations: usize,
@@ -21,12 +21,14 @@ pub struct Encoded {
     pub n_vertices: usize,
 }
 
-/// The operations of a build as a stream. O(n) but for coding, which is most of it.
+/// The operations of a build as a stream. O(n) apart from compression, which takes most of the
+/// time.
 ///
 /// # Errors
 ///
-/// [`StreamError::NoOperations`] for a build of another decimator; [`StreamError::Meaningless`] for one whose stars of hundreds of
-/// thousands of triangles moved so often that no reader would follow.
+/// [`StreamError::NoOperations`] for a build of another decimator. [`StreamError::Meaningless`] if
+/// stars of hundreds of thousands of triangles moved so often that no reader would accept the
+/// stream.
 pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
     let trace = &build.passage.as_ref().ok_or(StreamError::NoOperations)?.trace;
     let mut writer = Writer::new(&build.mesh);
@@ -35,7 +37,7 @@ pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
     let mut block_len = FIRST_BLOCK;
     for operation in &planned {
         n_in_block += writer.put(operation);
-        // No reader would take it.
+        // No reader would accept it.
         if !writer.growth.may_move(0) {
             let operation = writer.growth.operations.len();
             return Err(StreamError::Meaningless { operation, what: MOVES });
@@ -55,10 +57,10 @@ struct Writer<'a> {
     mesh: &'a TriangleMesh,
     stride_bytes: usize,
     growth: Growth,
-    /// Number of each vertex and slot in the order of growth.
+    /// Number of each vertex and slot, in the order of growth.
     number: Vec<u32>,
     triangle: Vec<u32>,
-    /// Vertices of the mesh by number.
+    /// Vertex of the mesh for each number.
     vertices: Vec<u32>,
     planes: Planes,
     link: Vec<u32>,
@@ -83,7 +85,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Puts an operation down; gives how many it took.
+    /// Writes an operation; returns how many operations of the stream it took.
     fn put(&mut self, planned: &Planned) -> usize {
         match planned {
             &Planned::VertexMerge { vertex, beside } => {
@@ -94,7 +96,8 @@ impl<'a> Writer<'a> {
                 self.put_triangle(slot, corners);
                 1
             }
-            // A vertex that is not there yet has no star to split: its triangles come one by one.
+            // A vertex that does not exist yet has no star to split: its triangles are written one
+            // by one.
             Planned::EdgeSplit { beside, born, .. } if self.number[*beside as usize] == UNKNOWN => {
                 born.iter().for_each(|&(slot, corners)| self.put_triangle(slot, corners));
                 born.len()
@@ -140,7 +143,7 @@ impl<'a> Writer<'a> {
             });
             self.planes.put(plane::MASKS, bits);
         }
-        // In the order of the star, which the reader finds them in.
+        // In the order of the star, in which the reader finds them.
         let moved: Vec<u32> =
             star.into_iter().filter(|triangle| moved.binary_search(triangle).is_ok()).collect();
         self.put_new(vertex, origin as usize);
@@ -168,7 +171,7 @@ impl<'a> Writer<'a> {
         self.growth.edge_split(origin, &moved, &numbers, count(self.vertices.len() - n_before));
     }
 
-    /// Names a vertex; one that is new is named by the next number, and described.
+    /// Writes the number of a vertex. A new vertex gets the next number and is described.
     fn put_vertex_or_new(&mut self, vertex: u32, near: usize) {
         let number = self.number[vertex as usize];
         if number == UNKNOWN {
@@ -179,7 +182,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Numbers a vertex and puts down how its position and attributes differ from those of a numbered one.
+    /// Numbers a vertex and writes how its position and attributes differ from those of a vertex
+    /// that has a number.
     fn put_new(&mut self, vertex: u32, near: usize) {
         self.number[vertex as usize] = count(self.vertices.len());
         let near = self.vertices.get(near).map(|&near| near as usize);

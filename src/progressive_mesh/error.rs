@@ -1,13 +1,13 @@
 //! What can be wrong with a stream.
 
-/// A stream could not be read, or not be made.
+/// A stream could not be read or written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StreamError {
-    /// The build has no operations: another decimator made it.
+    /// The build has no operations, because another decimator made it.
     #[error("only the progressive decimator leaves operations")]
     NoOperations,
-    /// The bytes begin like no stream of this version.
+    /// The bytes are not the beginning of a stream of this version.
     #[error("an operation stream begins with {expected:08x}, found {found:08x}")]
     Magic {
         /// First four bytes.
@@ -15,7 +15,7 @@ pub enum StreamError {
         /// What they must be.
         expected: u32,
     },
-    /// A block's bytes are not those that were written.
+    /// A block is damaged.
     #[error("block {block} has checksum {found:08x}, expected {expected:08x}")]
     Checksum {
         /// Which block.
@@ -25,7 +25,7 @@ pub enum StreamError {
         /// Checksum in the block.
         expected: u32,
     },
-    /// A block does not hold what its operations need.
+    /// A block holds too little or too much for its operations.
     #[error("block {block} has {what} for {found} where {expected} are needed")]
     Block {
         /// Which block.
@@ -49,7 +49,7 @@ pub enum StreamError {
         /// How many there are.
         n_there: u64,
     },
-    /// An operation makes a triangle that is none, or a position that is not finite.
+    /// An operation makes an invalid triangle or a position that is not finite.
     #[error("operation {operation} makes {what}")]
     Meaningless {
         /// Which operation.

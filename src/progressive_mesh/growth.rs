@@ -1,24 +1,26 @@
-//! The mesh as it grows while a stream is written or read: both sides keep one, so that a triangle can be named by its place
-//! in a star.
+//! The mesh as it grows while a stream is written or read. Writer and reader each keep one, so that
+//! a triangle can be named by its place in a star.
 
 use crate::mesh::Stars;
 use std::ops::Range;
 
-/// Moved triangles that a stream may have in any case, and for each of its operations. Honest operations move a handful; merging one
-/// large star from vertex to vertex would move it anew with every few bits.
+/// Number of triangles that a stream may move in any case, and additional number for each of its
+/// operations. Usual operations move a handful. Without a limit, a stream could move a large star
+/// again and again with a few bits each time.
 const MOVED_ALWAYS: usize = 1 << 20;
 const MOVED_PER_OPERATION: usize = 256;
 
-/// Most neighbours that a link names: a byte says which, and its last value none of them.
+/// Most neighbours that a link can name: one byte says which, and its last value means none of
+/// them.
 const MAX_LINK_LEN: usize = u8::MAX as usize;
 
 /// What an operation does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A new vertex takes over triangles of an old one, and new triangles appear.
+    /// A new vertex takes triangles from an old one, and new triangles appear.
     #[default]
     EdgeSplit,
-    /// A vertex goes into another one.
+    /// A vertex is merged into another one.
     VertexMerge,
     /// One triangle appears.
     Triangle,
@@ -28,9 +30,9 @@ pub(super) enum Kind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Operation {
     pub(super) kind: Kind,
-    /// The vertex that appears or goes.
+    /// The vertex that appears or disappears.
     pub(super) vertex: u32,
-    /// The vertex beside which that happens; itself for a triangle.
+    /// The vertex beside which that happens; the vertex itself for a triangle.
     pub(super) beside: u32,
     moved_start: u32,
     n_moved: u32,
@@ -41,7 +43,7 @@ pub(super) struct Operation {
 }
 
 impl Operation {
-    /// Where in [`Growth::moved`] the triangles are that change a corner.
+    /// Range in [`Growth::moved`] of the triangles that change a corner.
     pub(super) fn moved_range(&self) -> Range<usize> {
         self.moved_start as usize..(self.moved_start + self.n_moved) as usize
     }
@@ -63,7 +65,7 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Triangles at a vertex, in an order that both sides share.
+    /// Triangles at a vertex, in an order that writer and reader share.
     pub(super) fn star(&self, v: u32) -> &[u32] {
         self.stars.of(v)
     }
@@ -73,13 +75,14 @@ impl Growth {
         self.triangles[triangle as usize]
     }
 
-    /// Whether so many triangles more may move with the next operation.
+    /// Whether the next operation may move this many triangles more.
     pub(super) fn may_move(&self, n_triangles: usize) -> bool {
         let limit = MOVED_ALWAYS.saturating_add(MOVED_PER_OPERATION * (self.operations.len() + 1));
         self.moved.len().saturating_add(n_triangles) <= limit
     }
 
-    /// The first neighbours of `v` in the order in which its star names them, as many as a byte can name, into `link`.
+    /// Puts the first neighbours of `v` into `link`, in the order in which its star names them, as
+    /// many as a byte can name.
     pub(super) fn link(&self, v: u32, link: &mut Vec<u32>) {
         link.clear();
         for &triangle in self.star(v) {
@@ -94,7 +97,8 @@ impl Growth {
         }
     }
 
-    /// A new vertex takes `moved` over from `beside`; `born` appear, over `n_vertices` new vertices in all.
+    /// A new vertex takes the triangles `moved` from `beside`; the triangles `born` appear, over
+    /// `n_vertices` new vertices in all.
     pub(super) fn edge_split(&mut self, beside: u32, moved: &[u32], born: &[[u32; 3]], n_vertices: u32) {
         let vertex = self.n_vertices;
         self.grow(n_vertices);
@@ -107,7 +111,7 @@ impl Growth {
         );
     }
 
-    /// All triangles of `vertex` go to `beside`.
+    /// All triangles of `vertex` get the corner `beside` instead.
     pub(super) fn vertex_merge(&mut self, vertex: u32, beside: u32) {
         let moved = self.star(vertex).to_vec();
         self.give(vertex, beside, &moved);

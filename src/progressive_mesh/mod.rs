@@ -1,13 +1,15 @@
-//! A mesh as a stream of operations: from nothing to the full input and back, one operation or any number at a time.
+//! A mesh as a stream of operations: from nothing to the full input and back, by any number of
+//! operations at a time.
 //!
-//! The progressive decimator's operations, played backwards, build its input up from an empty mesh (W. J. Schroeder, "A topology
-//! modifying progressive decimation algorithm", 1997, sections 3.3 and 4.7; H. Hoppe, "Progressive meshes", SIGGRAPH 1996).
-//! An edge split makes a vertex beside an old one, gives it some of that one's triangles and makes new triangles between; a
-//! vertex merge takes two vertices at one place together; a first triangle appears where nothing was. Vertices and
-//! triangles are numbered as they appear, so that a split need not name its own vertex.
+//! The operations of the progressive decimator, played backwards, build its input up from an empty
+//! mesh (W. J. Schroeder, "A topology modifying progressive decimation algorithm", 1997, sections
+//! 3.3 and 4.7; H. Hoppe, "Progressive meshes", SIGGRAPH 1996). An edge split makes a vertex beside
+//! an old one, gives it some triangles of the old one, and makes new triangles between the two. A
+//! vertex merge joins two vertices at the same position. A first triangle appears by itself.
+//! Vertices and triangles are numbered as they appear, so a split need not name its own vertex.
 //!
-//! The naive player looks for the triangles that an operation moves. Here they are found once, when the stream is
-//! [read](ProgressiveMesh::append), and playing only copies numbers.
+//! The naive player searches for the triangles that an operation moves. Here they are found once,
+//! when the stream is [read](ProgressiveMesh::append), and playing only copies numbers.
 
 mod decode;
 mod encode;
@@ -22,13 +24,14 @@ pub use error::StreamError;
 use decode::{Decoder, Header};
 use growth::{Growth, Kind, Operation};
 
-/// Length of the beginning of a stream, before its first block.
+/// Length of the header of a stream, before its first block.
 pub const STREAM_HEADER_BYTES: usize = Header::BYTES;
 
 /// A mesh that grows and shrinks by single operations.
 ///
-/// Bytes may be [appended](Self::append) as they arrive; operations of whole blocks can be played at once, and the mesh is
-/// valid after every single one. Memory: some 70 bytes per vertex of the full mesh.
+/// Bytes may be [appended](Self::append) as they arrive; operations of whole blocks can be played
+/// at once, and the mesh is valid after every single one. Memory: some 70 bytes per vertex of the
+/// full mesh.
 ///
 /// ```
 /// use nephrite::progressive_mesh::{ProgressiveMesh, encode};
@@ -48,7 +51,7 @@ pub const STREAM_HEADER_BYTES: usize = Header::BYTES;
 #[derive(Clone, Debug, Default)]
 pub struct ProgressiveMesh {
     decoder: Decoder,
-    /// Bytes of a block that is not whole yet.
+    /// Bytes of a block that is not complete yet.
     pending: Vec<u8>,
     /// Operations played.
     position: usize,
@@ -57,7 +60,7 @@ pub struct ProgressiveMesh {
 }
 
 impl ProgressiveMesh {
-    /// Nothing, for a stream that is yet to come.
+    /// An empty mesh, for a stream whose bytes are still to come.
     pub fn new() -> Self {
         Self::default()
     }
@@ -66,20 +69,20 @@ impl ProgressiveMesh {
     ///
     /// # Errors
     ///
-    /// [`StreamError`] for bytes that are no stream, or damaged; a stream that ends early is none of that, see
-    /// [`is_whole`](Self::is_whole).
+    /// [`StreamError`] for bytes that are not a stream, or are damaged. A stream that ends early is
+    /// not an error; see [`is_whole`](Self::is_whole).
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, StreamError> {
         let mut mesh = Self::new();
         mesh.append(bytes)?;
         Ok(mesh)
     }
 
-    /// Takes more of the stream; gives the number of operations that can be played now. What was read before an error
-    /// stays.
+    /// Takes more bytes of the stream; returns the number of operations that can be played now.
+    /// What was read before an error stays.
     ///
     /// # Errors
     ///
-    /// [`StreamError`] for bytes that are no stream, or damaged.
+    /// [`StreamError`] for bytes that are not a stream, or are damaged.
     pub fn append(&mut self, bytes: &[u8]) -> Result<usize, StreamError> {
         self.pending.extend_from_slice(bytes);
         let mut read = 0;
@@ -104,7 +107,7 @@ impl ProgressiveMesh {
         self.growth().operations.len()
     }
 
-    /// Operations that the stream says it has; 0 before its beginning was read.
+    /// Operations that the header announces; 0 before the header has been read.
     pub fn n_announced(&self) -> u64 {
         self.decoder.header.map_or(0, |header| header.n_operations)
     }
@@ -114,7 +117,8 @@ impl ProgressiveMesh {
         self.position
     }
 
-    /// Plays up to `n` operations towards the full mesh; gives how many there were. O(triangles changed).
+    /// Plays up to `n` operations towards the full mesh; returns how many were played. O(triangles
+    /// changed).
     pub fn refine(&mut self, n: usize) -> usize {
         let end = self.position.saturating_add(n).min(self.n_operations());
         let Growth { operations, moved, born, .. } = &self.decoder.growth;
@@ -132,7 +136,7 @@ impl ProgressiveMesh {
         std::mem::replace(&mut self.position, end).abs_diff(end)
     }
 
-    /// Takes up to `n` operations back; gives how many there were. O(triangles changed).
+    /// Undoes up to `n` operations; returns how many were undone. O(triangles changed).
     pub fn coarsen(&mut self, n: usize) -> usize {
         let start = self.position.saturating_sub(n);
         let Growth { operations, moved, .. } = &self.decoder.growth;
@@ -149,7 +153,8 @@ impl ProgressiveMesh {
         std::mem::replace(&mut self.position, start).abs_diff(start)
     }
 
-    /// Plays to the largest mesh with at most `n` triangles among the operations read; gives its number of triangles.
+    /// Plays to the largest mesh of at most `n` triangles that the operations read so far give;
+    /// returns its number of triangles.
     pub fn to_triangles(&mut self, n: usize) -> usize {
         let position = self.growth().n_triangles.partition_point(|&count| count as usize <= n);
         if position >= self.position {
@@ -160,18 +165,19 @@ impl ProgressiveMesh {
         self.triangles.len()
     }
 
-    /// The triangles of the mesh as it is now, over [`positions`](Self::positions).
+    /// The triangles of the current mesh, over [`positions`](Self::positions).
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Positions of all vertices that have appeared; those that have gone into others since are in no triangle.
+    /// Positions of all vertices that have appeared. Vertices that have been merged into others are
+    /// in no triangle.
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.decoder.positions[..self.n_vertices]
     }
 
-    /// Attribute values of those vertices, in the order of the file's attribute table: [`stride_bytes`](Self::stride_bytes) for
-    /// each.
+    /// Attribute values of these vertices, in the order of the attribute table of the file:
+    /// [`stride_bytes`](Self::stride_bytes) for each.
     pub fn attribute_bytes(&self) -> &[u8] {
         &self.decoder.attributes[..self.n_vertices * self.stride_bytes()]
     }
@@ -186,7 +192,7 @@ impl ProgressiveMesh {
     }
 }
 
-/// Gives these triangles the corner `to` in the place of `from`.
+/// Gives these triangles the corner `to` instead of `from`.
 fn rename(triangles: &mut [[u32; 3]], moved: &[u32], from: u32, to: u32) {
     for &triangle in moved {
         for corner in &mut triangles[triangle as usize] {

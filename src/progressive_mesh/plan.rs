@@ -4,10 +4,12 @@ use crate::Build;
 use crate::decimate::progressive::complex::Complex;
 use crate::decimate::progressive::journal::{Operation, Trace};
 
-/// One operation to be written, in the numbers of the build: vertices of its mesh, triangles as slots.
+/// One operation to be written, in the numbers of the build: vertices of its mesh, triangles as
+/// slots.
 #[derive(Clone, Debug)]
 pub(super) enum Planned {
-    /// The inverse of a collapse: `vertex` takes the triangles `moved` from `beside`, and `born` appear.
+    /// The inverse of a collapse: `vertex` takes the triangles `moved` from `beside`, and `born`
+    /// appear.
     EdgeSplit { vertex: u32, beside: u32, moved: Vec<u32>, born: Vec<(u32, [u32; 3])> },
     /// The inverse of a split.
     VertexMerge { vertex: u32, beside: u32 },
@@ -15,7 +17,8 @@ pub(super) enum Planned {
     Triangle { slot: u32, corners: [u32; 3] },
 }
 
-/// Plays the trace on the input, and gives the way back. Memory: what the stream of all operations takes.
+/// Plays the trace on the input, and returns the way back. Memory: as much as the stream of all
+/// operations.
 pub(super) fn plan(build: &Build, trace: &Trace) -> Vec<Planned> {
     let mut complex = Complex::new(build.mesh.positions.clone(), build.mesh.triangles.clone());
     let mut planned: Vec<Planned> = trace

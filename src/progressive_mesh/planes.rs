@@ -1,7 +1,8 @@
-//! Planes of bytes: what makes up a block, each plane coded by itself.
+//! Planes of bytes: a block consists of planes, and each is compressed separately.
 //!
-//! Fields of the same kind are kept together, numbers byte by byte, positions as differences from a neighbour's on the scale on
-//! which floats are ordered like integers. Each plane is then deflated (RFC 1951), or stored where that is not shorter.
+//! Fields of one kind are stored together: numbers byte by byte, positions as differences from a
+//! neighbour, on the scale on which floats are ordered like integers. Each plane is then deflated
+//! (RFC 1951), or stored if that is shorter.
 
 use super::StreamError;
 use flate2::Compression;
@@ -13,13 +14,14 @@ use std::io::{Read, Write};
 pub(super) mod plane {
     /// Kind of each operation, and its number of new triangles.
     pub(in super::super) const KINDS: usize = 0;
-    /// Four planes: the vertex beside which an operation happens, and others named outright.
+    /// Four planes: the vertex beside which an operation happens, and other vertices that are named
+    /// by number.
     pub(in super::super) const VERTICES: usize = 1;
-    /// A bit per triangle of the star: whether it moves.
+    /// One bit per triangle of the star: whether it moves.
     pub(in super::super) const MASKS: usize = 5;
     /// Third corner of each new triangle, by its place among the neighbours.
     pub(in super::super) const LINKS: usize = 6;
-    /// In which order a new triangle has its corners.
+    /// Order of the corners of a new triangle.
     pub(in super::super) const ORDERS: usize = 7;
     /// Four planes: coordinates.
     pub(in super::super) const COORDINATES: usize = 8;
@@ -31,7 +33,7 @@ pub(super) mod plane {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Planes {
     planes: Vec<Vec<u8>>,
-    /// How much of each has been read.
+    /// How much of each plane has been read.
     read: Vec<usize>,
     block: usize,
 }
@@ -72,7 +74,7 @@ impl Planes {
         Ok(u32::from_le_bytes(bytes))
     }
 
-    /// Whether everything has been read.
+    /// Checks that everything has been read.
     pub(super) fn check_end(&self) -> Result<(), StreamError> {
         for (plane, &read) in self.planes.iter().zip(&self.read) {
             if plane.len() != read {
@@ -83,17 +85,17 @@ impl Planes {
         Ok(())
     }
 
-    /// Bytes before coding.
+    /// Bytes before compression.
     pub(super) fn plain_bytes(&self) -> usize {
         self.planes.iter().map(Vec::len).sum()
     }
 
-    /// The planes one after the other, each with its length before and after coding.
+    /// The planes one after the other, each with its length before and after compression.
     pub(super) fn code(&self) -> Vec<u8> {
         let mut coded = Vec::new();
         for plane in &self.planes {
             let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
-            // Writing to memory does not fail; where it did, the plane would be stored.
+            // Writing to memory does not fail; if it did, the plane would be stored.
             let deflated = encoder.write_all(plane).and_then(|()| encoder.finish());
             let shorter = deflated.ok().filter(|deflated| deflated.len() < plane.len());
             let bytes = shorter.as_ref().unwrap_or(plane);
@@ -105,7 +107,7 @@ impl Planes {
         coded
     }
 
-    /// Planes of a block. Takes no more memory than a thousand times the bytes, which is what deflate can stand for.
+    /// The planes of a block. Takes at most about a thousand times the bytes, the limit of deflate.
     pub(super) fn decode(stride_bytes: usize, block: usize, mut coded: &[u8]) -> Result<Self, StreamError> {
         let mut planes = Self { block, ..Self::new(stride_bytes) };
         let wrong = |what, found: usize, expected: usize| StreamError::Block {
@@ -138,8 +140,8 @@ impl Planes {
     }
 }
 
-/// Difference of two floats as a small number where they are close: their places in the order of all floats, with the sign in
-/// the last bit.
+/// Difference of two floats, as a number that is small if they are close: their ranks in the order
+/// of all floats, with the sign in the last bit.
 pub(super) fn difference(value: f32, from: f32) -> u32 {
     let steps = place(value).wrapping_sub(place(from)).cast_signed();
     ((steps << 1) ^ (steps >> 31)).cast_unsigned()
@@ -152,7 +154,7 @@ pub(super) fn apply_difference(difference: u32, from: f32) -> f32 {
     f32::from_bits(if place >> 31 == 0 { !place } else { place & 0x7fff_ffff })
 }
 
-/// Place of a float in the order of all floats.
+/// Rank of a float in the order of all floats.
 fn place(value: f32) -> u32 {
     let bits = value.to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 0x8000_0000 }

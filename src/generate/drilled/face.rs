@@ -9,7 +9,8 @@ const OUTERMOST_RADIUS: f64 = 4.5;
 /// A lattice point inside a square, where no vertex is.
 const NONE: u32 = u32::MAX;
 
-/// Vertices of a face and where they are: first those on the borders of squares, then those inside, square by square.
+/// Vertices of a face and their positions: first those on the borders of squares, then those
+/// inside, square by square.
 pub(super) struct Face {
     drilling: Drilling,
     /// Position of every vertex.
@@ -21,7 +22,8 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// The face of a drilling, whose counts are in their ranges, with holes of this radius.
+    /// The face of a drilling, whose counts are in their ranges, with holes of radius
+    /// `hole_radius`.
     pub(super) fn new(drilling: Drilling, hole_radius: f64) -> Self {
         let mut face = Self { drilling, points: Vec::new(), lattice: Vec::new(), inside: Vec::new() };
         let Drilling { columns, rows, pieces, segments, face_rings, .. } = drilling;
@@ -45,7 +47,8 @@ impl Face {
             for ring in 0..face_rings {
                 let radius = lattice::step(hole_radius, OUTERMOST_RADIUS, ring, face_rings);
                 for segment in 0..segments {
-                    // The first vertex looks to the lower left corner, like the first on the square's border.
+                    // The first vertex is towards the lower left corner, like the first vertex on
+                    // the border of the square.
                     let (sin, cos) = lattice::step(-0.375 * TAU, 0.625 * TAU, segment, segments).sin_cos();
                     face.points.push([x + radius * cos, y + radius * sin]);
                 }
@@ -72,7 +75,8 @@ impl Face {
             }
             let rings: Vec<Vec<u32>> =
                 (0..self.drilling.face_rings).map(|ring| self.ring(square, ring)).collect();
-            // Seen from above, a ring runs to the right of whoever looks outwards: outer rings are the lower ones.
+            // Seen from above, a ring runs to the right if one looks outwards: outer rings are the
+            // lower ones.
             let inwards: Vec<Vec<u32>> = rings.iter().rev().cloned().collect();
             triangles.extend(super::band(&inwards));
             rings.last().into_iter().for_each(|ring| stitch(ring, &border, &mut triangles));
@@ -117,13 +121,15 @@ impl Face {
     }
 }
 
-/// Fills the gap between two closed loops of different counts that begin at the same corner, in their order.
+/// Fills the gap between two closed loops of different counts that begin at the same corner, in
+/// their order.
 fn stitch(inner: &[u32], outer: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let [n_inner, n_outer] = [inner, outer].map(<[u32]>::len);
     let (mut i, mut o) = (0, 0);
     while i < n_inner || o < n_outer {
         let (here, there) = (inner[i % n_inner], outer[o % n_outer]);
-        // Whichever loop has gone the smaller part of its way goes on; half a step ahead keeps the triangles upright.
+        // The loop that has covered the smaller part of its length advances; comparing half a step
+        // ahead keeps the triangles upright.
         if o == n_outer || (i < n_inner && (2 * i + 1) * n_outer <= (2 * o + 1) * n_inner) {
             triangles.push([here, there, inner[(i + 1) % n_inner]]);
             i += 1;

@@ -5,17 +5,18 @@ use super::{Drilling, HOLE_RADIUS, THICKNESS, band};
 use crate::generate::mesh_of;
 use nephrite_formats::TriangleMesh;
 
-/// Radius of the hollow of a tube.
+/// Inner radius of a tube.
 const BORE_RADIUS: f64 = 2.4;
 /// Distance between the outer faces of the two sheets.
 const LENGTH: f64 = 120.0;
 
-/// A closed heat exchanger: two plates of `columns * rows` squares of 10 x 10, 2 thick and 120 from one outer face to the other, and
-/// a tube of radii 2.4 and 3 from each square of the one to that of the other.
+/// A closed heat exchanger: two plates of `columns * rows` squares of 10 x 10, 2 thick, with 120
+/// between their outer faces. A tube of radii 2.4 and 3 joins each square of one plate to that of
+/// the other.
 ///
-/// Each tube has `segments` sides, rounded up to a multiple of four, and opens through both plates. The surface has
-/// `2 * columns * rows - 1` handles and `4 * columns * rows * (2 * segments + 4) + 8 * (columns + rows)` triangles. `columns`
-/// and `rows` in `1..=400`, `segments` in `4..=1024`.
+/// Each tube has `segments` sides, rounded up to a multiple of four, and opens through both plates.
+/// The surface has `2 * columns * rows - 1` handles and `4 * columns * rows * (2 * segments + 4) +
+/// 8 * (columns + rows)` triangles. `columns` and `rows` in `1..=400`, `segments` in `4..=1024`.
 pub fn heat_exchanger(columns: u32, rows: u32, segments: u32) -> TriangleMesh {
     let drilling = Drilling::of_every_square(columns, rows, segments).clamped();
     // An outer face shows the bores, an inner one the tubes.

@@ -1,9 +1,11 @@
-//! Drilled parts as a CAD system would export them: large flat faces in long thin triangles, round holes through them.
+//! Drilled parts as a CAD system exports them: large flat faces in long thin triangles, with round
+//! holes through them.
 //!
-//! All are made of one [`face`], squares in columns and rows of which some have a hole: laid over itself for a [`plate()`], bent
-//! for a [`shell()`], and twice two of them with tubes between for a [`heat_exchanger()`]. With seven holes and the right
-//! counts they are as large as the parts in W. J. Schroeder, "A topology modifying progressive decimation algorithm", *IEEE
-//! Visualization* 1997, figure 7.
+//! All are made of one [`face`], squares in columns and rows of which some have a hole. A
+//! [`plate()`] is a face and its mirror image; a [`shell()`] is a face that is bent; a
+//! [`heat_exchanger()`] is two plates with tubes between them. With seven holes and the right
+//! counts they are as large as the parts in W. J. Schroeder, "A topology modifying progressive
+//! decimation algorithm", *IEEE Visualization* 1997, figure 7.
 
 mod face;
 mod heat_exchanger;
@@ -23,7 +25,7 @@ const HOLE_RADIUS: f64 = 3.0;
 /// Thickness of a plate.
 const THICKNESS: f64 = 2.0;
 
-/// How a face is divided and drilled. Counts outside their ranges are moved to the nearer end.
+/// How a face is divided and drilled. Counts outside their ranges are clamped.
 ///
 /// ```
 /// use nephrite::generate::{Drilling, drilled_plate, shell};
@@ -59,13 +61,13 @@ impl Drilling {
     pub const SHELL: Self =
         Self { columns: 3, rows: 3, holes: 7, segments: 20, pieces: 12, face_rings: 3, wall_rings: 1 };
 
-    /// A hole in every square, as few triangles as that takes.
+    /// A hole in every square, with as few triangles as possible.
     pub fn of_every_square(columns: u32, rows: u32, segments: u32) -> Self {
         let holes = columns.saturating_mul(rows);
         Self { columns, rows, holes, segments, pieces: 1, face_rings: 1, wall_rings: 1 }
     }
 
-    /// The nearest counts within their ranges: vertices then fit a `u32`.
+    /// The counts, clamped to their ranges, so that the vertices fit a `u32`.
     fn clamped(&self) -> Self {
         let (columns, rows) = (self.columns.clamp(1, 400), self.rows.clamp(1, 400));
         Self {
@@ -91,8 +93,8 @@ impl Drilling {
     }
 }
 
-/// Triangles of a closed band over loops of vertices, the first of them lowest; seen from the side that it faces, a loop runs to
-/// the right.
+/// Triangles of a closed band over loops of vertices, the lowest loop first. Seen from the side
+/// that the band faces, a loop runs to the right.
 fn band(loops: &[Vec<u32>]) -> impl Iterator<Item = [u32; 3]> + '_ {
     loops.windows(2).flat_map(|pair| {
         let n = u32::try_from(pair[0].len()).unwrap_or(u32::MAX);

@@ -5,16 +5,18 @@ use super::{Drilling, HOLE_RADIUS, THICKNESS, band, lattice};
 use crate::generate::mesh_of;
 use nephrite_formats::TriangleMesh;
 
-/// A closed plate with a through-hole of radius 3 in each of `columns * rows` squares of 10 x 10, 2 thick.
+/// A closed plate with a through-hole of radius 3 in each of `columns * rows` squares of 10 x 10, 2
+/// thick.
 ///
-/// Each hole has `segments` sides, rounded up to a multiple of four. The surface has one handle for every hole and
-/// `columns * rows * (4 * segments + 8) + 4 * (columns + rows)` triangles. `columns` and `rows` in `1..=400`, `segments`
-/// in `4..=1024`.
+/// Each hole has `segments` sides, rounded up to a multiple of four. The surface has one handle for
+/// every hole and `columns * rows * (4 * segments + 8) + 4 * (columns + rows)` triangles. `columns`
+/// and `rows` in `1..=400`, `segments` in `4..=1024`.
 pub fn plate(columns: u32, rows: u32, segments: u32) -> TriangleMesh {
     drilled_plate(&Drilling::of_every_square(columns, rows, segments))
 }
 
-/// A closed plate of 10 x 10 squares, 2 thick, with through-holes of radius 3 in some of them: one handle for every hole.
+/// A closed plate of 10 x 10 squares, 2 thick, with through-holes of radius 3 in some of them: one
+/// handle for every hole.
 pub fn drilled_plate(drilling: &Drilling) -> TriangleMesh {
     let drilling = drilling.clamped();
     let face = Face::new(drilling, HOLE_RADIUS);
@@ -29,7 +31,7 @@ pub fn drilled_plate(drilling: &Drilling) -> TriangleMesh {
     let above = outline.iter().copied().map(lifted).collect();
     triangles.extend(band(&[outline, above]));
     for mut rim in face.rims() {
-        // The wall looks towards the axis.
+        // The wall faces the axis.
         rim.reverse();
         let mut loops = vec![rim.clone()];
         for ring in 1..drilling.wall_rings {

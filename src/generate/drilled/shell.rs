@@ -1,4 +1,4 @@
-//! A thin shell with holes: one face, bent.
+//! A thin shell with holes: one bent face.
 
 use super::face::Face;
 use super::{Drilling, HOLE_RADIUS, PITCH};
@@ -6,13 +6,13 @@ use crate::generate::mesh_of;
 use nephrite_formats::TriangleMesh;
 use std::f64::consts::PI;
 
-/// How far the shell is bent.
+/// Angle by which the shell is bent.
 const ARC: f64 = PI / 2.0;
 
-/// An open shell of 10 x 10 squares, bent by a right angle about the y axis, with holes of radius 3, measured on the surface, in
-/// some of them.
+/// An open shell of 10 x 10 squares, bent by a right angle about the y axis. Some squares have
+/// holes of radius 3, measured on the surface.
 ///
-/// It has a boundary for every hole and one around it, and looks away from the axis.
+/// It has one boundary for every hole and one around it, and faces away from the axis.
 pub fn shell(drilling: &Drilling) -> TriangleMesh {
     let drilling = drilling.clamped();
     let face = Face::new(drilling, HOLE_RADIUS);
