@@ -1,4 +1,5 @@
-//! Building all levels at once, beside what one does without a history: a run per level (table 3 of the JADE paper).
+//! Building all levels at once, beside one run per level, which is what one does without a history
+//! (table 3 of the JADE paper).
 
 #![allow(
     missing_docs,

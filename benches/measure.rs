@@ -1,4 +1,5 @@
-//! The distance between two surfaces, in samples; the naive way compares every sample with every triangle.
+//! The distance between two surfaces, in samples, beside the naive way, which compares every sample
+//! with every triangle.
 
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on has failed")]
 #![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
@@ -60,7 +61,7 @@ fn triangles(mesh: &TriangleMesh) -> Vec<Triangle> {
     mesh.triangles.iter().map(|corners| corners.map(|v| mesh.point(v))).collect()
 }
 
-/// As many centroids, each as often as it takes.
+/// `n_points` centroids of triangles, repeated as needed.
 fn centroids(mesh: &TriangleMesh, n_points: usize) -> Vec<[f64; 3]> {
     let centroid = |[a, b, c]: Triangle| std::array::from_fn(|axis| (a[axis] + b[axis] + c[axis]) / 3.0);
     triangles(mesh).into_iter().map(centroid).cycle().take(n_points).collect()

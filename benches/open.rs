@@ -1,5 +1,5 @@
-//! Opening a file: mapped and read, beside reading the bytes and nothing else; and the first cut out of a mapped file,
-//! with the file in the system's memory and, on Linux, with the system made to forget it.
+//! Opening a file, mapped and read, beside reading the bytes alone; and the first cut from a mapped
+//! file, with the file in the page cache and, on Linux, after the page cache was dropped.
 
 #![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on has failed")]
@@ -50,7 +50,7 @@ fn open(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Maps a file and copies a tenth of its triangles out, as a program that starts does.
+/// Maps a file and copies a tenth of its triangles, like a program that starts.
 fn first_cut(path: &Path) -> Vec<u32> {
     // SAFETY: the temporary file is ours and nobody writes to it.
     let lod = unsafe { Lod::map(black_box(path)) }.unwrap();
@@ -60,7 +60,7 @@ fn first_cut(path: &Path) -> Vec<u32> {
     indices
 }
 
-/// Makes the system read the file from the disk again; does nothing where it cannot be asked.
+/// Makes the system read the file from the disk again; does nothing where that is not possible.
 fn forget_file(path: &Path) {
     #[cfg(target_os = "linux")]
     {

@@ -4,11 +4,12 @@ use nephrite_formats::{
     MeshFormat, VolumeFormat, read_mesh_bytes, read_volume_bytes, write_mesh_to, write_volume_to,
 };
 
-/// Reads bytes as a mesh file: a mesh that holds together and can be written, or an error of one line.
+/// Reads bytes as a mesh file. The result must be a consistent mesh that can be written, or an
+/// error of one line.
 ///
 /// # Panics
 ///
-/// When it is neither.
+/// If it is neither.
 pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
     let detected = MeshFormat::detect(bytes, Some(format));
     assert!(detected.is_some());
@@ -30,11 +31,11 @@ pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
     }
 }
 
-/// Reads bytes as a volume file: as [`read_mesh`] does.
+/// Reads bytes as a volume file. The result must be a consistent volume, or an error of one line.
 ///
 /// # Panics
 ///
-/// When it is neither a volume that holds together nor an error of one line.
+/// If it is neither.
 pub(crate) fn read_volume(bytes: &[u8], format: VolumeFormat) {
     match read_volume_bytes(bytes, format) {
         Ok((mesh, report)) => {

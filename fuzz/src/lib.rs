@@ -1,7 +1,8 @@
-//! Fuzz targets: functions from bytes to nothing, which panic where a promise is broken.
+//! Fuzz targets: functions that take bytes and panic if a promise is broken.
 //!
-//! Under `cargo test` each runs for a second on random bytes, and on every input that was ever a find. `fuzz/run` lets
-//! libFuzzer search for inputs with the coverage of the code as its guide; its last results are in `fuzz/RESULTS.md`.
+//! Under `cargo test` each target runs for a second on random bytes, and on every input that was
+//! ever a find. `fuzz/run` lets libFuzzer search for inputs, guided by the coverage of the code;
+//! its last results are in `fuzz/RESULTS.md`.
 #![cfg(test)]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a broken promise ends the run")]
 

@@ -10,11 +10,12 @@ use nephrite_formats::neph::HEADER_BYTES;
 use std::io::Cursor;
 use std::sync::LazyLock;
 
-/// Opens bytes as a file and asks it everything: as they are, and with all checksums made right.
+/// Opens bytes as a file and calls every query: once as they are, and once with all checksums
+/// corrected.
 ///
 /// # Panics
 ///
-/// When an answer is out of range, or a verified file gives none.
+/// If an answer is out of range, or a verified file gives no answer.
 pub(crate) fn open_and_use(bytes: &[u8]) {
     use_all(bytes);
     let mut sealed = bytes.to_vec();
@@ -23,7 +24,8 @@ pub(crate) fn open_and_use(bytes: &[u8]) {
     }
 }
 
-/// Small valid files: usual, of one level, of many levels in windows, in the compact form, with vertices that are born.
+/// Small valid files: a usual one, one of one level, one of many levels in windows, one in the
+/// compact form, and one with vertices that are born.
 static FILES: LazyLock<Vec<(Vec<u8>, Seal)>> = LazyLock::new(|| {
     let file = |side, n_removals, has_births, options| {
         let mut mesh = grid(side);
@@ -49,20 +51,22 @@ static FILES: LazyLock<Vec<(Vec<u8>, Seal)>> = LazyLock::new(|| {
     ]
 });
 
-/// Edits a valid file, seals it again, and asks it the queries of a script in their order.
+/// Edits a valid file, corrects its checksums, and calls the queries of a script in order.
 ///
-/// The script: which file, how many edits, a place and a value for each, then queries until it ends.
+/// The script: which file, how many edits, a place and a value for each, then queries until it
+/// ends.
 ///
 /// # Panics
 ///
-/// When an answer is out of range.
+/// If an answer is out of range.
 pub(crate) fn query_edited(script: &[u8]) {
     let mut script = Script::new(script);
     let (file, seal) = &FILES[script.below(FILES.len())];
     let mut bytes = file.clone();
     let n_edits = script.below(9);
     for _ in 0..n_edits {
-        // Half of all edits meet the body, and there whole numbers as often as bytes.
+        // Half of all edits are in the body, and half of those change whole numbers instead of
+        // bytes.
         let kind = script.u8();
         let start = if kind & 1 == 0 { 0 } else { HEADER_BYTES + 448 };
         let place = start + script.below(bytes.len() - start);
@@ -86,7 +90,7 @@ pub(crate) fn query_edited(script: &[u8]) {
     }
 }
 
-/// Most queries of one script: later ones meet nothing that earlier ones did not.
+/// Most queries of one script; more of them find nothing new.
 const MAX_QUERIES: usize = 12;
 
 /// Queries until the script ends.

@@ -1,4 +1,4 @@
-//! Operation streams of any bytes, and valid ones with a few edits behind checksums that are right.
+//! Operation streams of any bytes, and valid ones with a few edits and correct checksums.
 
 use crate::script::Script;
 use flate2::read::DeflateDecoder;
@@ -12,7 +12,8 @@ use std::sync::LazyLock;
 /// Bytes before the planes of a block: operations, length, checksum.
 const BLOCK_HEADER_BYTES: usize = 12;
 
-/// Small valid streams whose planes are not coded, so that an edit meets operations and not the coder.
+/// Small valid streams whose planes are not compressed, so that an edit changes operations and not
+/// the compression.
 static STREAMS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let stream = |mesh, pre_split| {
         let mut options = BuildOptions {
@@ -32,7 +33,7 @@ static STREAMS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     ]
 });
 
-/// The same stream with every plane as it is.
+/// The same stream with uncompressed planes.
 fn uncoded(stream: &[u8]) -> Vec<u8> {
     let (header, mut rest) = stream.split_at(STREAM_HEADER_BYTES);
     let mut plain = header.to_vec();
@@ -66,7 +67,7 @@ fn u32_at(bytes: &[u8], at: usize) -> usize {
     u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize
 }
 
-/// Makes the checksum of every block right, as far as blocks can be told.
+/// Corrects the checksum of every block, as far as blocks can be found.
 fn renew_checksums(stream: &mut [u8]) {
     let mut at = STREAM_HEADER_BYTES;
     while let Some(header) = stream.get(at..at + BLOCK_HEADER_BYTES) {
@@ -78,14 +79,15 @@ fn renew_checksums(stream: &mut [u8]) {
     }
 }
 
-/// Reads bytes as a stream: as they are, and with all checksums made right. Then edits a valid stream, and plays what can be read.
+/// Reads bytes as a stream: once as they are, and once with all checksums corrected. Then edits a
+/// valid stream, and plays what can be read.
 ///
-/// The script of an edit: which stream, how many edits, a place and a value for each, how many bytes arrive at once, then moves
-/// until it ends.
+/// The script of an edit: which stream, how many edits, a place and a value for each, how many
+/// bytes arrive at once, then moves until it ends.
 ///
 /// # Panics
 ///
-/// When a mesh on the way is none, or going back does not lead to nothing.
+/// If a mesh on the way is invalid, or going back does not end with an empty mesh.
 pub(crate) fn open_operations(bytes: &[u8]) {
     play(bytes, usize::MAX, Script::new(&[]));
     let mut sealed = bytes.to_vec();
@@ -107,7 +109,7 @@ pub(crate) fn open_operations(bytes: &[u8]) {
     assert!(is_whole || n_edits > 0);
 }
 
-/// Reads a stream piece by piece, with moves between; false where it is damaged or cut.
+/// Reads a stream piece by piece, with moves between; false if it is damaged or truncated.
 fn play(stream: &[u8], n_at_once: usize, mut script: Script<'_>) -> bool {
     let mut mesh = ProgressiveMesh::new();
     for piece in stream.chunks(n_at_once.min(stream.len().max(1))) {

@@ -1,4 +1,4 @@
-//! Bytes of an input taken one number after the other; zeros when they are used up.
+//! Takes numbers from the bytes of an input one after another; zeros after its end.
 
 /// What is left of an input.
 pub(crate) struct Script<'a> {
@@ -35,7 +35,7 @@ impl<'a> Script<'a> {
         usize::from(self.u16()) % n
     }
 
-    /// What nobody took.
+    /// The bytes that are left.
     pub(crate) fn rest(self) -> &'a [u8] {
         self.bytes
     }

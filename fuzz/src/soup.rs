@@ -1,4 +1,4 @@
-//! Triangles of any kind made into a file, and histories of any kind.
+//! Random triangles made into a file, and random histories.
 
 use crate::script::Script;
 use nephrite::decimate::fusion::FusionOptions;
@@ -15,17 +15,19 @@ use nephrite::{
 use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
 
-/// Most vertices and triangles of a soup: enough for every kind of star, and a build takes a fraction of a millisecond.
+/// Most vertices and triangles of a soup: enough for every kind of star, and a build takes a
+/// fraction of a millisecond.
 const MAX_VERTICES: usize = 16;
 const MAX_TRIANGLES: usize = 24;
 
-/// Builds all levels of triangles that know nothing of surfaces, writes them, and opens, verifies and uses the file.
+/// Builds all levels of random triangles, writes them, and opens, verifies and uses the file.
 ///
-/// The script: bound and scale, vertices on a small lattice so that they often coincide, triangles until it ends.
+/// The script: bound and scale, vertices on a small lattice so that they often coincide, triangles
+/// until it ends.
 ///
 /// # Panics
 ///
-/// When the build fails for another reason than that nothing is left of the triangles, or its file does not verify.
+/// If the build fails although triangles are left after repair, or its file does not verify.
 pub(crate) fn build_soup(script: &[u8]) {
     let mut script = Script::new(script);
     let options = BuildOptions {
@@ -37,8 +39,8 @@ pub(crate) fn build_soup(script: &[u8]) {
     build_any(&soup(&mut script), &options);
 }
 
-/// As [`build_soup`], in the other ways: by collapses and splits, and with vertices that move; up to the largest coordinates there are. What
-/// is played from a stream of operations ends as the input.
+/// As [`build_soup`], with the other decimators: by collapses and splits, and with vertices that
+/// move; up to the largest coordinates. A stream of operations must end as the input.
 ///
 /// # Panics
 ///
@@ -77,13 +79,13 @@ fn build_any(mesh: &TriangleMesh, options: &BuildOptions) {
     }
 }
 
-/// Fuses tetrahedra that know nothing of volumes, writes them, and opens, verifies and uses the file.
+/// Fuses random tetrahedra, writes them, and opens, verifies and uses the file.
 ///
-/// The script: options, scale and vertices as of [`build_soup`], tetrahedra until it ends.
+/// The script: options, scale and vertices as in [`build_soup`], tetrahedra until it ends.
 ///
 /// # Panics
 ///
-/// When the build fails for another reason than that nothing is left of the tetrahedra, or its file does not verify.
+/// If the build fails although tetrahedra are left after repair, or its file does not verify.
 pub(crate) fn fuse_soup(script: &[u8]) {
     let mut script = Script::new(script);
     let options = VolumeOptions {
@@ -145,13 +147,13 @@ fn vertices(script: &mut Script<'_>) -> (Vec<[f32; 3]>, Vec<Attribute>) {
     (positions, if has_attribute { vec![color] } else { Vec::new() })
 }
 
-/// Writes a history of any kind: refused with an error, or a file that verifies.
+/// Writes a random history. It must be refused with an error, or give a file that verifies.
 ///
 /// The script: steps, deaths and births of vertices, then lifetimes until it ends.
 ///
 /// # Panics
 ///
-/// When a file is written that does not verify.
+/// If a file is written that does not verify.
 pub(crate) fn write_history(script: &[u8]) {
     let mut script = Script::new(script);
     let options = StoreOptions {
@@ -162,7 +164,7 @@ pub(crate) fn write_history(script: &[u8]) {
     let n_steps = script.below(12);
     let stamp = |script: &mut Script<'_>| match script.u8() {
         255 => NEVER,
-        // Mostly steps there are.
+        // Mostly steps that exist.
         stamp => u32::from(stamp) % (u32::from(small(n_steps)) + 2),
     };
     let n_vertices = 1 + script.below(10);
@@ -211,7 +213,8 @@ fn written<'a, const CORNERS: usize>(
     Ok(stream.into_inner())
 }
 
-/// A file that must verify, with so many triangles at level 0, none of its levels larger than the one before.
+/// Checks a file that must verify, with `n_triangles` triangles at level 0 and no level larger than
+/// the one before.
 fn check_file(bytes: &[u8], n_triangles: usize) -> Lod {
     let lod = Lod::from_bytes(bytes).unwrap();
     lod.verify().unwrap();

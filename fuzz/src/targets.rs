@@ -6,7 +6,8 @@ use cap::Cap;
 use nephrite_formats::{MeshFormat, VolumeFormat};
 use std::alloc::System;
 
-/// No input of a few kilobytes may ask for more, all targets at once; a refused allocation ends the process.
+/// Limit for all targets together. An input of a few kilobytes must not need more; a refused
+/// allocation ends the process.
 #[global_allocator]
 static ALLOCATOR: Cap<System> = Cap::new(System, 512 << 20);
 
@@ -118,9 +119,9 @@ fn write_history() {
     check!().for_each(soup::write_history);
 }
 
-/// Tasks this small are not worth handing to other threads.
+/// Tasks this small are not worth giving to other threads.
 fn on_this_thread() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-    // The pool of a thread ends with it.
+    // The pool of a thread ends with the thread.
     std::mem::forget(pool);
 }

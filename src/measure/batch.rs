@@ -6,10 +6,10 @@ use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::{PreparedTriangle, larger, smaller};
 use crate::geometry::vector::{Vector, midpoint};
 
-/// Points that a batch holds at most, corners of the tile included.
+/// Most points of a batch, corners of the tile included.
 pub(super) const BATCH_LEN: usize = 32;
 
-/// Points are compared in groups of so many.
+/// Number of points that are compared at once.
 const GROUP_LEN: usize = 4;
 
 /// Corners of the quarters of a triangular tile.
@@ -19,20 +19,20 @@ const N_CORNERS: usize = 6;
 pub(super) struct Quarter {
     /// Its corners.
     pub(super) corners: Triangle,
-    /// The triangle whose largest distance from the corners is least of those that were compared.
+    /// The triangle whose largest distance from the corners is least, among those compared.
     pub(super) bound: Found,
     /// The triangle nearest to each corner.
     pub(super) nearest: [Found; 3],
 }
 
-/// Corners of the quarters of a triangular tile, as places in a batch: the tile's corners are 0 to 2, and corner `3 + i`
-/// is the middle of the side opposite to corner `i`.
+/// Corners of the quarters of a triangular tile, as places in a batch: places 0 to 2 are the
+/// corners of the tile, and place `3 + i` is the middle of the side opposite to corner `i`.
 const QUARTERS: [[usize; 3]; 4] = [[0, 5, 4], [5, 1, 3], [3, 4, 5], [4, 3, 2]];
 
-/// The samples in a tile, coordinate by coordinate, with what is known of their distances. If the tile is a triangle,
-/// the corners of its quarters come first, so that each quarter is bounded.
+/// The samples in a tile, coordinate by coordinate, with the least distances found so far. If the
+/// tile is a triangle, the corners of its quarters come first, so that each quarter is bounded.
 ///
-/// Beyond `len`, up to the next multiple of a group, the last point is repeated.
+/// After `len`, up to the next multiple of a group, the last point is repeated.
 pub(super) struct Batch {
     coordinates: [[f64; BATCH_LEN]; 3],
     nearest_sq: [f64; BATCH_LEN],
@@ -51,7 +51,7 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// A batch of nothing.
+    /// An empty batch.
     pub(super) fn new() -> Self {
         Self {
             coordinates: [[0.0; BATCH_LEN]; 3],
@@ -67,8 +67,8 @@ impl Batch {
         }
     }
 
-    /// Replaces the content by a tile, given by its corners, and the points in it, of which those that find no room
-    /// are left in the iterator.
+    /// Replaces the content by a tile, given by its corners, and the points in it. Points for which
+    /// there is no room stay in the iterator.
     pub(super) fn fill(&mut self, tile: &[Vector], points: &mut impl Iterator<Item = Vector>) {
         self.region = Bounds::around(tile.iter().copied());
         self.bounds = [Found::NOTHING; 4];
@@ -111,7 +111,7 @@ impl Batch {
         &self.region
     }
 
-    /// The quarters of a triangular tile; nothing for a segment.
+    /// The quarters of a triangular tile; none for a segment.
     pub(super) fn quarters(&self) -> impl Iterator<Item = Quarter> {
         let n_quarters = if self.n_corners == 0 { 0 } else { QUARTERS.len() };
         QUARTERS.into_iter().zip(self.bounds).take(n_quarters).map(|(places, bound)| Quarter {
@@ -121,13 +121,13 @@ impl Batch {
         })
     }
 
-    /// A triangle that is nearest to one of the points: a good hint for a tile nearby.
+    /// A triangle that is nearest to one of the points: a good hint for a nearby tile.
     pub(super) fn hint(&self) -> u32 {
         self.hint
     }
 
-    /// Largest squared distance of any of the points from the triangles compared: what is farther from the tile than
-    /// this is nearest to none of them.
+    /// Largest squared distance of a point from the triangles compared. A triangle farther from the
+    /// tile than this is nearest to none of the points.
     #[inline(always)]
     pub(super) fn reach_sq(&self) -> f64 {
         self.reach_sq

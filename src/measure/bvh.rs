@@ -1,10 +1,11 @@
-//! A bounding-volume hierarchy over triangles: four boxes a node, in flat arrays.
+//! A bounding-volume hierarchy over triangles, with four boxes per node, in flat arrays.
 //!
-//! The plain tree has two children a node and a pointer to each. Four children need half the levels, and their boxes
-//! lie lane by lane so that one pass of vector instructions measures all four. Splits are chosen by the surface area
-//! heuristic over bins of centroids (Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, RT 2007).
-//! The tree grows level by level, all nodes of a level in parallel, so no recursion depends on the input, and the
-//! result does not depend on the number of threads.
+//! The usual tree has two children per node and a pointer to each. Four children need half the
+//! levels, and their boxes lie lane by lane so that one pass of vector instructions measures all
+//! four. Splits are chosen by the surface area heuristic over bins of centroids (Wald, *On fast
+//! Construction of SAH-based Bounding Volume Hierarchies*, RT 2007). The tree grows level by level,
+//! all nodes of a level in parallel, so no recursion depends on the input and the result does not
+//! depend on the number of threads.
 
 use rayon::prelude::*;
 
@@ -16,13 +17,14 @@ use crate::geometry::vector::{self, Vector};
 /// Children of a node.
 pub(super) const LANES: usize = 4;
 
-/// Triangles that a leaf holds at most.
+/// Most triangles of a leaf.
 const LEAF_LEN: usize = 1;
 
 /// Slices that a range of centroids is cut into when a split is chosen.
 const N_BINS: usize = 16;
 
-/// Up to four children with their boxes. A lane without child has the empty box, infinitely far from everything.
+/// Up to four children with their boxes. A lane without a child has the empty box, infinitely far
+/// from everything.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     /// Lower corners, by axis and lane.
@@ -31,11 +33,11 @@ pub(super) struct Node {
     high: [[f64; LANES]; 3],
     /// First triangle of a leaf, or index of the child node.
     first: [u32; LANES],
-    /// Triangles of a leaf; 0 for a child node and for a lane without child.
+    /// Triangles of a leaf; 0 for a child node and for a lane without a child.
     n_triangles: [u32; LANES],
 }
 
-/// What hangs in one lane of a node.
+/// The child in one lane of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Child {
     /// Another node, by its index.
@@ -64,7 +66,7 @@ impl Node {
         n_triangles: [0; LANES],
     };
 
-    /// What hangs in a lane. The caller has found its distance finite, so there is something.
+    /// The child in a lane that has one: the caller has found its distance finite.
     #[inline(always)]
     pub(super) fn child(&self, lane: usize) -> Child {
         match self.n_triangles[lane] {
@@ -73,13 +75,13 @@ impl Node {
         }
     }
 
-    /// Squared distances from a point to the boxes; infinite for a lane without child.
+    /// Squared distances from a point to the boxes; infinite for a lane without a child.
     #[inline(always)]
     pub(super) fn point_distances_sq(&self, p: Vector) -> [f64; LANES] {
         self.box_distances_sq(&Bounds { low: p, high: p })
     }
 
-    /// Squared distances from a box to the boxes; infinite for a lane without child.
+    /// Squared distances from a box to the boxes; infinite for a lane without a child.
     #[inline(always)]
     pub(super) fn box_distances_sq(&self, bounds: &Bounds) -> [f64; LANES] {
         let mut sums = [0.0; LANES];
@@ -120,8 +122,9 @@ impl Node {
     }
 }
 
-/// Builds the tree over `triangles`, at least one of them, and returns its nodes, the root first, with the order in
-/// which its leaves count the triangles: `order[i]` is the place in `triangles` of what a leaf calls `i`.
+/// Builds the tree over `triangles`, at least one. Returns its nodes, the root first, and the order
+/// in which its leaves count the triangles: `order[i]` is the place in `triangles` of what a leaf
+/// calls `i`.
 ///
 /// `O(n log n)` for any mesh that is not an exponential spiral; each level is built in parallel.
 pub(super) fn build(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
@@ -155,8 +158,8 @@ struct Part<'a> {
     primitives: &'a mut [Primitive],
 }
 
-/// Splits the triangles from `first` on in four, as evenly as their areas allow: the node, its leaves complete, and
-/// the parts whose nodes are to follow.
+/// Splits the triangles from `first` on in four, as evenly as their areas allow. Returns the node
+/// with its leaves complete, and the parts whose nodes must still be built.
 fn build_node(first: u32, primitives: &mut [Primitive]) -> (Node, Vec<Part<'_>>) {
     let mut node = Node::EMPTY;
     let mut parts = Vec::with_capacity(LANES);
@@ -186,8 +189,8 @@ fn build_node(first: u32, primitives: &mut [Primitive]) -> (Node, Vec<Part<'_>>)
     (node, parts)
 }
 
-/// Reorders the triangles and cuts them in two where the surface area heuristic is least; what a leaf holds is left
-/// whole, with nothing on the right.
+/// Reorders the triangles and cuts them in two where the surface area heuristic is least. A range
+/// that fits a leaf stays whole, with nothing on the right.
 fn split(primitives: &mut [Primitive]) -> (&mut [Primitive], &mut [Primitive]) {
     if primitives.len() <= LEAF_LEN {
         return (primitives, &mut []);
@@ -208,12 +211,13 @@ fn split(primitives: &mut [Primitive]) -> (&mut [Primitive], &mut [Primitive]) {
     };
     let cut = cheapest_cut(primitives, bin_of);
     let n_left = partition(primitives, |primitive| bin_of(primitive) < cut);
-    // The first and the last bin hold the extreme centroids, so neither side is empty unless the bins underflowed.
+    // The first and the last bin hold the extreme centroids, so neither side is empty unless the
+    // bins underflow.
     let n_left = if n_left == 0 || n_left == primitives.len() { middle } else { n_left };
     primitives.split_at_mut(n_left)
 }
 
-/// The bin, from 1 on, before which a cut makes the sum of area times count least.
+/// The bin, from 1 on, before which a cut gives the least sum of area times count.
 fn cheapest_cut(primitives: &[Primitive], bin_of: impl Fn(&Primitive) -> usize) -> usize {
     let mut bins = [(Bounds::EMPTY, 0usize); N_BINS];
     for primitive in primitives {
@@ -237,7 +241,7 @@ fn cheapest_cut(primitives: &[Primitive], bin_of: impl Fn(&Primitive) -> usize) 
     (1..N_BINS).fold(1, |best, cut| if costs[cut] < costs[best] { cut } else { best })
 }
 
-/// Moves what satisfies `is_left` to the front and returns how much that is.
+/// Moves the elements that satisfy `is_left` to the front and returns their number.
 fn partition(primitives: &mut [Primitive], is_left: impl Fn(&Primitive) -> bool) -> usize {
     let mut n_left = 0;
     for i in 0..primitives.len() {
@@ -263,7 +267,8 @@ fn truncate(position: f64) -> usize {
     position as usize
 }
 
-/// Panics unless the boxes hold what is below them and the leaves hold each of `triangles` once.
+/// Panics unless the boxes contain everything below them and the leaves hold each of `triangles`
+/// once.
 #[cfg(test)]
 pub(super) fn check_tree(nodes: &[Node], triangles: &[Triangle]) {
     let mut n_seen = vec![0u32; triangles.len()];

@@ -22,12 +22,12 @@ impl std::fmt::Display for Side {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasureError {
-    /// There is no surface to measure from or to.
+    /// A mesh has no surface to measure.
     #[error("the {side} has no triangles, {n_vertices} vertices alone are no surface")]
     NoTriangles {
         /// Which of the two meshes.
         side: Side,
-        /// Vertices that it has all the same.
+        /// Its number of vertices.
         n_vertices: usize,
     },
     /// A triangle names a vertex that does not exist.
@@ -60,7 +60,7 @@ pub enum MeasureError {
         /// The origin found.
         origin: [f64; 3],
     },
-    /// More vertices or triangles than ids of 32 bits have room for.
+    /// More vertices or triangles than 32-bit ids can number.
     #[error("{found} {what} of the {side}, there can be at most {limit}")]
     TooLarge {
         /// Which of the two meshes.
@@ -72,7 +72,7 @@ pub enum MeasureError {
         /// How many there may be.
         limit: usize,
     },
-    /// The meshes are too far apart for squares of their distance to be finite.
+    /// The meshes are so far apart that squares of distances are not finite.
     #[error("coordinates reach {found:e}, at most {limit:e} can be measured")]
     TooFarApart {
         /// Largest coordinate about the reference's centre.
@@ -80,7 +80,7 @@ pub enum MeasureError {
         /// Largest coordinate that is accepted.
         limit: f64,
     },
-    /// A mean of no samples does not exist.
+    /// There is no mean of 0 samples.
     #[error("0 samples were asked for, at least 1 is needed")]
     NoSamples,
     /// The tolerance is not a number above zero.

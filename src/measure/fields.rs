@@ -1,12 +1,12 @@
-//! How far the fields of two volumes are apart: sampled at the vertices of each, in the other.
+//! How far the fields of two volumes are apart, sampled at the vertices of each in the other.
 
 use super::locator::Locator;
 use nephrite_formats::{Attribute, TetrahedronMesh};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// How far one field of two volumes is apart, in the field's own unit. A field of several components is measured by the length of the
-/// difference. Sampled, not proven.
+/// How far one field of two volumes is apart, in the unit of the field. For a field of several
+/// components it is the length of the difference. Sampled, not proven.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FieldDistance {
     /// Name of the field, which both volumes have.
@@ -19,15 +19,17 @@ pub struct FieldDistance {
     pub max_backward: f64,
     /// Root of the mean squared difference at the vertices of the reference.
     pub rms: f64,
-    /// Length of the diagonal of the box of all values of the reference: what percentages may refer to.
+    /// Length of the diagonal of the box of all values of the reference, which percentages may
+    /// refer to.
     pub range: f64,
-    /// Vertices of both volumes at which it was sampled.
+    /// Vertices of both volumes that were sampled.
     pub n_samples: usize,
-    /// Vertices of both that are outside the other volume and were left out.
+    /// Vertices of both volumes that are outside the other one and were left out.
     pub n_outside: usize,
 }
 
-/// Measures every field that both volumes have under one name and with as many components. O(n log n).
+/// Measures every field that both volumes have under the same name and with the same number of
+/// components. O(n log n).
 pub fn measure_fields(reference: &TetrahedronMesh, mesh: &TetrahedronMesh) -> Vec<FieldDistance> {
     let pairs: Vec<[&Attribute; 2]> = reference
         .attributes
@@ -77,7 +79,8 @@ impl Places {
         Self { places: vertices.positions.par_iter().map(find).collect() }
     }
 
-    /// The lengths of the differences between values at vertices and those of the other volume at their places.
+    /// Lengths of the differences between values at vertices and the values of the other volume at
+    /// the same places.
     fn differences(&self, ours: &[f64], theirs: &[f64], n: usize) -> Vec<f64> {
         let placed = self.places.iter().enumerate().filter_map(|(v, place)| Some((v, (*place)?)));
         placed

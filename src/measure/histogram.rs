@@ -5,15 +5,16 @@ use serde::Serialize;
 /// Parts of a surface's area by their distance from another surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Histogram {
-    /// Distance at which the last bin ends; the first begins at 0, and all are equally wide. In mesh units.
+    /// Distance at which the last bin ends, in mesh units. The first bin begins at 0, and all are
+    /// equally wide.
     pub range: f64,
     /// Part of the area in each bin; the sum is 1 unless there were no distances.
     pub bins: Vec<f64>,
 }
 
 impl Histogram {
-    /// Counts distances, in mesh units, each of which stands for the same area; what lies beyond `range` is counted in
-    /// the last bin. There is at least one bin.
+    /// Counts distances, in mesh units, each of which stands for the same area; what lies beyond
+    /// `range` is counted in the last bin. There is at least one bin.
     ///
     /// ```
     /// use nephrite::measure::Histogram;

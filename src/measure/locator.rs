@@ -1,7 +1,8 @@
-//! Which tetrahedron a point is in.
+//! Finds the tetrahedron that contains a point.
 //!
-//! Meshes of simulations are a thousand times finer in one place than in another, so that no grid of equal cells fits them. Here
-//! tetrahedra are sorted into a tree of boxes, halved at the median of their centres along the longest side.
+//! Meshes of simulations are a thousand times finer in one place than in another, so no grid of
+//! equal cells fits them. Here tetrahedra are sorted into a tree of boxes, which are halved at the
+//! median of the centres along the longest side.
 
 use crate::decimate::fusion::barycentric;
 use crate::geometry::vector::{Vector, add, max, min, scale, sub};
@@ -10,14 +11,16 @@ use nephrite_formats::TetrahedronMesh;
 /// Tetrahedra in a leaf.
 const LEAF_LEN: usize = 4;
 
-/// How far outside, in barycentric coordinates, a point counts as inside: rounding of positions.
+/// How far outside, in barycentric coordinates, a point still counts as inside: the rounding of
+/// positions.
 const TOLERANCE: f64 = 1e-5;
 
 /// A tree of boxes over the tetrahedra of a volume.
 pub(super) struct Locator<'a> {
     volume: &'a TetrahedronMesh,
     order: Vec<u32>,
-    /// Boxes of the nodes; node `i` has the children `2 i + 1` and `2 i + 2`, and `order` is halved between them.
+    /// Boxes of the nodes; node `i` has the children `2 i + 1` and `2 i + 2`, and `order` is halved
+    /// between them.
     boxes: Vec<[Vector; 2]>,
 }
 
@@ -28,7 +31,8 @@ impl<'a> Locator<'a> {
         let order: Vec<u32> = (0..volume.tetrahedra.len() as u32).collect();
         let mut locator = Self { volume, order, boxes: Vec::new() };
         let mut order = std::mem::take(&mut locator.order);
-        // Children are behind their parents, and depth is the logarithm of the length: a stack of ranges.
+        // Children come after their parents, and the depth is the logarithm of the length: a stack
+        // of ranges.
         let mut stack = vec![(0, 0..order.len())];
         while let Some((node, range)) = stack.pop() {
             let bounds = locator.bounds(&order[range.clone()]);
@@ -65,7 +69,8 @@ impl<'a> Locator<'a> {
         points.fold(start, |[low, high], p| [min(low, p), max(high, p)])
     }
 
-    /// The corners of the tetrahedron that a point is most inside of, and its coordinates there; `None` outside of all.
+    /// The corners of the tetrahedron that contains a point best, and the barycentric coordinates
+    /// there; `None` if the point is outside of all.
     pub(super) fn find(&self, point: Vector) -> Option<([u32; 4], [f64; 4])> {
         let mut best = None;
         let mut best_inside = -TOLERANCE;

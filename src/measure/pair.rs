@@ -10,9 +10,9 @@ use super::sweep::{self, Tally};
 use crate::TriangleMesh;
 use crate::geometry::distance::Segment;
 
-/// Rounding of one distance, with everything that led to the corners it was computed from, in units of the largest
-/// coordinate: `1024 f64::EPSILON`. The closest point costs 16, placing a mesh in the frame 2, each of at most 139 cuts
-/// of a piece 1.
+/// Rounding of one distance and of everything that led to its corners, in units of the largest
+/// coordinate: `1024 f64::EPSILON`. The closest point costs 16, placing a mesh in the frame 2, and
+/// each of at most 139 cuts of a piece 1.
 pub(super) const SLACK: f64 = 1.0 / (1u64 << 42) as f64;
 
 /// Two surfaces in one frame.
@@ -20,7 +20,7 @@ pub(super) struct Pair {
     /// Where both are measured.
     pub(super) frame: Frame,
     surfaces: [Surface; 2],
-    /// How far distances are to be trusted.
+    /// The uncertainty of distances.
     pub(super) uncertainty: Uncertainty,
 }
 
@@ -51,11 +51,11 @@ impl Pair {
     }
 }
 
-/// What separates a computed distance from that of the surfaces in the files.
+/// The difference between a computed distance and that of the surfaces in the files.
 pub(super) struct Uncertainty {
     /// Floating point, as a length.
     slack: f64,
-    /// What the vertices moved when the meshes were read.
+    /// How far the vertices moved when the meshes were read.
     rounding: f64,
 }
 
@@ -65,13 +65,13 @@ impl Uncertainty {
         self.slack + self.rounding
     }
 
-    /// Below this, distances are not told apart.
+    /// Distances below this are not distinguished.
     pub(super) fn floor(&self) -> f64 {
         4.0 * self.slack + self.rounding
     }
 }
 
-/// Measures from one surface to the other; `farthest` is left in the frame.
+/// Measures from one surface to the other; `farthest` is given in the frame.
 pub(super) fn measure_one_sided(
     source: &Surface,
     target: &Tree,
@@ -87,7 +87,8 @@ pub(super) fn measure_one_sided(
     let edges = sweep::sweep_edges(&Samples::new(&segments, options.n_samples, 0.0), target);
 
     let settled_sq = goal.settled_sq(vertices.farthest.or(edges.farthest).distance_sq);
-    // Tiles no larger than the target's triangles have good first bounds, however few the samples.
+    // Tiles no larger than the triangles of the target have good first bounds, however few the
+    // samples.
     let samples = Samples::new(source.tree.triangles(), options.n_samples, target.triangles().len() as f64);
     let (faces, parts) = sweep::sweep_faces(&samples, target, settled_sq);
 
@@ -103,7 +104,8 @@ fn summarize(
     uncertainty: &Uncertainty,
     options: &MeasureOptions,
 ) -> OneSided {
-    // Metro takes no more vertices than samples; here all count, with the weight of those it would take.
+    // Metro takes no more vertices than samples. Here all vertices count, with the total weight of
+    // those that Metro would take.
     let vertex_weight = (options.n_samples as f64 / vertices.n as f64).min(1.0);
     let weighted = |of: fn(&Tally) -> f64| vertex_weight * of(&vertices) + of(&edges) + of(&faces);
     let n = weighted(|tally| tally.n as f64);

@@ -6,10 +6,10 @@ use crate::geometry::vector::{Vector, add_scaled, distance_sq, sub};
 /// Corners that a polygon has at most.
 const MAX_CORNERS: usize = 8;
 
-/// Steps at most towards the point in which an edge crosses a line.
+/// Most steps towards the point at which an edge crosses a line.
 const MAX_STEPS: usize = 10;
 
-/// Part of the range at which the root of a value counts as zero in any case.
+/// Part of the range below which the root of a value counts as zero.
 const CLOSE: f64 = 1e-5;
 
 /// A convex polygon in the plane of a triangle.
@@ -34,10 +34,11 @@ impl Polygon {
         &self.corners[..self.len]
     }
 
-    /// Cuts the polygon by the straight line through two points at which a continuous function, best one that grows like
-    /// a signed square, changes its sign along the boundary: the part in which the first corner above zero lies, and the
-    /// other. Values within `close` count as zero. Nothing if the function does not change its sign, or if a part would
-    /// have too many corners.
+    /// Cuts the polygon by the straight line through two points at which a continuous function
+    /// changes its sign along the boundary. Returns the part with the first corner above zero, and
+    /// the other. A function that grows like a signed square suits best. Values within `close`
+    /// count as zero. `None` if the function does not change its sign, or if a part would have too
+    /// many corners.
     pub(super) fn cut_at_sign_change(&self, close: f64, f: impl Fn(Vector) -> f64) -> Option<[Self; 2]> {
         let mut values = [0.0; MAX_CORNERS];
         for (value, &corner) in values.iter_mut().zip(self.corners()) {
@@ -46,7 +47,7 @@ impl Polygon {
         let next = |i: usize| if i + 1 < self.len { i + 1 } else { 0 };
         let mut changes = (0..self.len).filter(|&i| (values[i] > 0.0) != (values[next(i)] > 0.0));
         let (first, second) = (changes.next()?, changes.next()?);
-        // Either part has the corners on its side of the changes, and two more.
+        // Each part has the corners on its side of the sign changes, and two more.
         let n_between = second - first;
         if n_between.max(self.len - n_between) + 2 > MAX_CORNERS {
             return None;
@@ -67,7 +68,7 @@ impl Polygon {
         Some(parts)
     }
 
-    /// Cuts the polygon across its largest extent, in the middle. Nothing if it is a point.
+    /// Cuts the polygon in the middle, across its largest extent. `None` if it is a point.
     pub(super) fn bisect(&self) -> Option<[Self; 2]> {
         let corners = self.corners();
         let mut ends = [corners[0]; 2];
@@ -85,7 +86,7 @@ impl Polygon {
         self.cut_at_sign_change(0.0, f).or_else(|| self.cut_off_ear())
     }
 
-    /// Cuts half of the corners off: what is left to do where a part would have too many.
+    /// Cuts off half of the corners, for a polygon of which a part would have too many.
     fn cut_off_ear(&self) -> Option<[Self; 2]> {
         let middle = self.len / 2;
         (self.len > 3).then(|| {
@@ -102,10 +103,12 @@ impl Polygon {
     }
 }
 
-/// A point of a segment near which a function changes its sign, by regula falsi with the value at the end that stays
-/// halved (the Illinois method). Any point will do; its rounding moves both sides of the cut alike.
+/// A point of a segment near which a function changes its sign, by regula falsi with the value at
+/// the retained end halved (the Illinois method). Any point is valid; its rounding moves both sides
+/// of the cut alike.
 fn crossing([a, b]: Segment, values: [f64; 2], close: f64, f: impl Fn(Vector) -> f64) -> Vector {
-    // Differences of squared distances change sign like their signed square roots, which are closer to linear.
+    // Differences of squared distances change sign like their signed square roots, and these are
+    // closer to linear.
     let root = |value: f64| value.signum() * value.abs().sqrt();
     let at = |t: f64| add_scaled(a, t, sub(b, a));
     let (mut low, mut high) = ((0.0, root(values[0])), (1.0, root(values[1])));

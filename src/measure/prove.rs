@@ -1,18 +1,21 @@
 //! The bracket on a one-sided Hausdorff distance, by branch and bound.
 //!
-//! A *piece* is a convex polygon cut out of a triangle of the source. Its upper bound is the largest distance of its corners
-//! from one triangle of the target: the distance from a convex set is a convex function, so nothing in the piece is
-//! farther. Its lower bound is the exact distance of any of its points. A piece whose upper bound is within the
-//! tolerance of the largest distance found anywhere is settled; any other is cut and its parts are bounded again.
+//! A *piece* is a convex polygon cut out of a triangle of the source. Its upper bound is the
+//! largest distance of its corners from one triangle of the target: the distance from a convex set
+//! is a convex function, so no point of the piece is farther. Its lower bound is the exact distance
+//! of any of its points. A piece is settled if its upper bound is within the tolerance of the
+//! largest distance found anywhere. Any other piece is cut, and its parts are bounded again.
 //!
-//! The plain cut halves a piece. Where the two surfaces nearly touch this never ends well: a piece that straddles an edge
-//! of the target is bounded by its overhang, not by the distance, and halving must go on until the pieces along that edge
-//! are as small as the distance. So most cuts run along the points that are equally far from the triangle that bounds
-//! the piece and from the one that is nearest to its worst corner. Such a cut separates what belongs to the one from
-//! what belongs to the other: over an edge between coplanar triangles it is that edge, in a valley the bisecting plane.
+//! The plain cut halves a piece. Where the two surfaces nearly touch, this takes very long: a piece
+//! that straddles an edge of the target is bounded by its overhang, not by the distance, and
+//! halving must go on until the pieces along that edge are as small as the distance. So most cuts
+//! run along the points that are equally far from the triangle that bounds the piece and from the
+//! triangle nearest to its worst corner. Such a cut separates what belongs to one triangle from
+//! what belongs to the other: along an edge between coplanar triangles it is that edge, in a valley
+//! it is the bisecting plane.
 //!
-//! Rounds instead of a queue: all open pieces are cut at once, in parallel, against the bound known before the round,
-//! so the result does not depend on the number of threads.
+//! Rounds replace a queue: all open pieces are cut at once, in parallel, against the bound known
+//! before the round, so the result does not depend on the number of threads.
 
 use rayon::prelude::*;
 
@@ -23,18 +26,19 @@ use super::sweep::Farthest;
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::Vector;
 
-/// Rounds at most: pieces are then far below the rounding error of their corners.
+/// Most rounds; by then pieces are far smaller than the rounding error of their corners.
 const MAX_ROUNDS: usize = 128;
 
-/// Every so many cuts a piece is halved, and the best triangles for its halves are searched for in the whole tree: where
-/// distances change along a piece more than from triangle to triangle, only small pieces have good bounds.
+/// After this many cuts a piece is halved, and the best triangles for its halves are searched for
+/// in the whole tree. Where distances change more along a piece than from triangle to triangle,
+/// only small pieces have good bounds.
 const CUTS_PER_BISECTION: u32 = 6;
 
-/// Cuts at most that a quarter of a tile gets at once: most need one or two.
+/// Most cuts that a quarter of a tile gets at once; most need one or two.
 const EARLY_CUTS: usize = 4;
 
-/// Squared distances from two triangles that differ by less than this part of the settled bound, squared, count as
-/// equal: a cut need not be better than what it is to prove.
+/// Squared distances from two triangles count as equal if they differ by less than this part of the
+/// settled bound, squared: a cut need not be better than what it must prove.
 const CLOSE: f64 = 0.2;
 
 /// Pieces that one thread takes at a time.
@@ -50,7 +54,8 @@ pub(super) struct Piece {
     n_cuts: u32,
 }
 
-/// A whole surface: pieces that are settled, of which only the largest bound is kept, and pieces that are open.
+/// A whole surface: pieces that are settled, of which only the largest bound is kept, and pieces
+/// that are open.
 #[derive(Default)]
 pub(super) struct Cover {
     /// Square of the largest bound of a settled piece.
@@ -62,14 +67,15 @@ pub(super) struct Cover {
 /// When the search for a proof ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
-    /// As soon as the upper bound exceeds the lower by this part of it, or is below `floor`.
+    /// Ends if the upper bound exceeds the lower one by at most this part of it, or is below
+    /// `floor`.
     Tolerance {
         /// Relative width of the bracket.
         tolerance: f64,
-        /// Distances below this are not told apart.
+        /// Distances below this are not distinguished.
         floor: f64,
     },
-    /// As soon as the distance is known to be at most this, or to be more.
+    /// Ends once the distance is known to be at most this, or more.
     AtMost(f64),
 }
 
@@ -85,7 +91,7 @@ pub(super) struct Bracket {
 }
 
 impl Goal {
-    /// Square of the bound at which a piece is settled when the largest distance found so far is given.
+    /// Squared bound at which a piece is settled, given the largest squared distance found so far.
     pub(super) fn settled_sq(self, lower_sq: f64) -> f64 {
         match self {
             Self::Tolerance { tolerance, floor } => {
@@ -95,7 +101,7 @@ impl Goal {
         }
     }
 
-    /// Whether a distance decides the matter by itself.
+    /// Whether one distance decides the question.
     fn is_refuted_by(self, lower_sq: f64) -> bool {
         matches!(self, Self::AtMost(limit) if lower_sq > limit * limit)
     }
@@ -136,7 +142,7 @@ pub(super) fn refine(
 }
 
 impl Cover {
-    /// Takes in a piece, which is settled if its bound is within `limit_sq`.
+    /// Adds a piece, which is settled if its bound is within `limit_sq`.
     pub(super) fn add(&mut self, piece: Piece, limit_sq: f64) {
         if piece.bound.distance_sq > limit_sq {
             self.open.push(piece);
@@ -145,7 +151,7 @@ impl Cover {
         }
     }
 
-    /// Takes in another cover.
+    /// Adds another cover.
     pub(super) fn merge(&mut self, other: Self) {
         self.settled_sq = self.settled_sq.max(other.settled_sq);
         self.open.extend(other.open);
@@ -164,7 +170,7 @@ impl Cover {
     }
 }
 
-/// What pieces were cut into.
+/// The parts of pieces that were cut.
 #[derive(Default)]
 pub(super) struct Parts {
     /// The pieces.
@@ -176,7 +182,8 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Whole triangles of the source, which may be segments and points, each with the triangle of the target that bounds it best.
+    /// Whole triangles of the source, which may be segments and points, each with the triangle of
+    /// the target that bounds it best.
     pub(super) fn whole(triangles: &[Triangle], target: &Tree) -> Self {
         let look = |stack: &mut Stack, triangle: &Triangle| {
             let bound = target.search(triangle, 0, stack);
@@ -192,7 +199,7 @@ impl Parts {
         Self { cover: Cover { settled_sq: 0.0, open }, n_pieces: triangles.len(), farthest }
     }
 
-    /// Takes in other parts.
+    /// Adds other parts.
     pub(super) fn merge(&mut self, other: Self) {
         self.cover.merge(other.cover);
         self.n_pieces += other.n_pieces;
@@ -219,7 +226,8 @@ impl<'a> Cutter<'a> {
         self.parts
     }
 
-    /// Adds a quarter of a tile, or its parts after a few cuts, which need not be kept for another round then.
+    /// Adds a quarter of a tile, or its parts after a few cuts, so that they need not wait for
+    /// another round.
     pub(super) fn settle_or_cut(&mut self, quarter: &Quarter) {
         let piece = Piece { polygon: Polygon::from(quarter.corners), bound: quarter.bound, n_cuts: 0 };
         if quarter.bound.distance_sq <= self.settled_sq {
@@ -246,8 +254,8 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// Cuts along the points that are equally far from the bounding triangle and from the one nearest to the worst
-    /// corner; whether there are such points.
+    /// Cuts along the points that are equally far from the bounding triangle and from the one
+    /// nearest to the worst corner. False if there are no such points.
     fn cut_between(&mut self, piece: &Piece) -> bool {
         let bounding = piece.bound.triangle;
         let corners = piece.polygon.corners();
@@ -256,8 +264,8 @@ impl<'a> Cutter<'a> {
         self.cut_towards(piece, nearest)
     }
 
-    /// Cuts along the points that are equally far from the bounding triangle and from another; whether there are such
-    /// points.
+    /// Cuts along the points that are equally far from the bounding triangle and from another one.
+    /// False if there are no such points.
     fn cut_towards(&mut self, piece: &Piece, nearest: u32) -> bool {
         let (target, bounding) = (self.target, piece.bound.triangle);
         if nearest == bounding {

@@ -1,16 +1,17 @@
-//! What is asked of a measurement, and what it answers.
+//! Options and results of a measurement.
 
 use serde::Serialize;
 
 /// How closely two surfaces are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasureOptions {
-    /// Samples on the edges, and as many inside the triangles, of each of the two surfaces, at least 1.
+    /// Samples on the edges, and as many inside the triangles, of each of the two surfaces, at
+    /// least 1.
     pub n_samples: usize,
-    /// Width of the proven bracket that is aimed at, as a part of the distance: `0.01` is one percent.
+    /// Width of the proven bracket to aim at, as a part of the distance: `0.01` is 1 %.
     pub tolerance: f64,
-    /// Pieces of one surface that the proof may look at, beside a few of each tile of samples, before it gives up and
-    /// reports the bracket it has.
+    /// Pieces of one surface that the proof may bound, beside a few for each tile of samples,
+    /// before it stops and reports the bracket so far.
     pub max_pieces: usize,
 }
 
@@ -23,7 +24,8 @@ impl Default for MeasureOptions {
 /// The distance between two surfaces. Lengths are in mesh units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distance {
-    /// Largest distance found, the larger of both directions: the Hausdorff distance to within the bracket.
+    /// Largest distance found, the larger of both directions: the Hausdorff distance to within the
+    /// bracket.
     pub max: f64,
     /// Mean over the samples, the mean of both directions.
     pub mean: f64,
@@ -45,8 +47,9 @@ pub struct Distance {
 
 /// The distance of the points of one surface from another. Lengths are in mesh units.
 ///
-/// `mean` and `rms` count what Metro counts: every vertex, samples along the edges by length, samples in the triangles
-/// by area, each once. `area_mean` and `area_rms` are the integrals over the surface, from the samples in the triangles.
+/// `mean` and `rms` count what Metro counts: every vertex, samples along the edges by length,
+/// samples in the triangles by area, each once. `area_mean` and `area_rms` are the integrals over
+/// the surface, from the samples in the triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OneSided {
     /// Largest distance found.
@@ -55,7 +58,7 @@ pub struct OneSided {
     pub mean: f64,
     /// Root of the mean square over all samples.
     pub rms: f64,
-    /// Mean by area; by length for a surface without area, over its points where it has no length either.
+    /// Mean by area. For a surface without area, by length; without length, over its points.
     pub area_mean: f64,
     /// Root of the mean square by area, length or points, like `area_mean`.
     pub area_rms: f64,
@@ -67,11 +70,11 @@ pub struct OneSided {
     pub farthest: [f64; 3],
     /// Samples that were taken, vertices included.
     pub n_samples: usize,
-    /// Pieces that were bounded in the proof.
+    /// Pieces that the proof has bounded.
     pub n_pieces: usize,
 }
 
-/// What [`check_within`](super::check_within) found out.
+/// Result of [`check_within`](super::check_within).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Verdict {
     /// Proven: neither surface has a point farther from the other than the limit.
@@ -83,7 +86,8 @@ pub enum Verdict {
         /// The point, in file coordinates.
         farthest: [f64; 3],
     },
-    /// The distance is too close to the limit to tell, or the proof would take more pieces than are allowed.
+    /// The distance is too close to the limit to tell, or the proof would need more pieces than are
+    /// allowed.
     Undecided {
         /// Proven: the Hausdorff distance is no more, in mesh units.
         upper_bound: f64,

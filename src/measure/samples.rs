@@ -1,36 +1,38 @@
-//! Where samples lie: spread evenly over a surface, without random numbers.
+//! Positions of samples: spread evenly over a surface, without random numbers.
 //!
-//! Metro throws its samples at random. Here sample `i` of `n` belongs to the element (triangle, or edge) that holds the
-//! fraction `(i + 1/2) / n` of all the area, so every region gets its share to within one sample. Large elements are
-//! cut into equal *tiles* that hold a handful of samples each. Inside a tile the samples follow the additive recurrence
-//! of the plastic number, a two-dimensional sequence of low discrepancy (Roberts, *The Unreasonable Effectiveness of
+//! Metro places its samples at random. Here sample `i` of `n` belongs to the element (triangle or
+//! edge) that contains the fraction `(i + 1/2) / n` of the total area, so every region gets its
+//! share to within one sample. Large elements are cut into equal *tiles* of a handful of samples
+//! each. Inside a tile the samples follow the additive recurrence of the plastic number, a
+//! two-dimensional sequence of low discrepancy (Roberts, *The Unreasonable Effectiveness of
 //! Quasirandom Sequences*, 2018).
 
 use crate::geometry::distance::{Segment, Triangle};
 use crate::geometry::vector::{Vector, add_scaled, cross, length, sub};
 
-/// Samples that a tile should hold on average.
+/// Average number of samples of a tile.
 const TILE_SAMPLES: f64 = 10.0;
 
-/// Parts that the sides of one element are cut into at most.
+/// Most parts into which the sides of one element are cut.
 const MAX_PARTS: u32 = 4096;
 
 /// The reciprocals of the plastic number and of its square.
 const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
-/// Something that has a size and can be cut into equal tiles of its own kind: a triangle or a segment.
+/// An element with a size that can be cut into equal tiles of its own kind: a triangle or a
+/// segment.
 pub(super) trait Element: Copy + Send + Sync {
     /// The corners.
     fn corners(&self) -> &[Vector];
     /// Area, or length.
     fn size(&self) -> f64;
-    /// Parts of every side that make about `n_tiles` tiles.
+    /// Parts per side that make about `n_tiles` tiles.
     fn parts_for(n_tiles: f64) -> f64;
-    /// Tiles when every side is cut into `parts`.
+    /// Number of tiles if every side is cut into `parts`.
     fn n_tiles(parts: u32) -> u64;
     /// One of these tiles; neighbours in number are neighbours in space.
     fn tile(&self, parts: u32, index: u64) -> Self;
-    /// A point of the element for two numbers in `[0, 1)`, uniform if they are.
+    /// The point of the element for two numbers in `[0, 1)`; uniform if they are.
     fn at(&self, u: f64, v: f64) -> Vector;
 }
 
@@ -51,8 +53,8 @@ impl Element for Triangle {
         u64::from(parts) * u64::from(parts)
     }
 
-    /// Strip `r` between two lines parallel to the last side holds tiles `r^2 .. (r + 1)^2`, pointing away from the
-    /// first corner and towards it in turn.
+    /// Strip `r` between two lines parallel to the last side holds tiles `r^2 .. (r + 1)^2`, which
+    /// point away from the first corner and towards it in turn.
     fn tile(&self, parts: u32, index: u64) -> Self {
         if parts == 1 {
             return *self;
@@ -120,20 +122,20 @@ pub(super) struct Samples<'a, E> {
 pub(super) struct Tile<E> {
     /// The corners.
     pub(super) corners: E,
-    /// Its samples, out of all.
+    /// The numbers of its samples among all samples.
     samples: std::ops::Range<usize>,
 }
 
 impl<'a, E: Element> Samples<'a, E> {
-    /// Spreads `n_samples` over the elements, none if they have no size, which are cut into `n_tiles` tiles or as many
-    /// as suit the samples.
+    /// Spreads `n_samples` over the elements, which are cut into `n_tiles` tiles or as many as suit
+    /// the samples. There are no samples if the elements have no size.
     pub(super) fn new(elements: &'a [E], n_samples: usize, n_tiles: f64) -> Self {
         let samples = Self::cut(elements, n_tiles.max(n_samples as f64 / TILE_SAMPLES));
         let n_samples = if samples.total_size() > 0.0 { n_samples } else { 0 };
         Self { n_samples, ..samples }
     }
 
-    /// Cuts the elements into about `n_tiles` tiles, at least one for each, without samples.
+    /// Cuts the elements into about `n_tiles` tiles without samples, at least one per element.
     pub(super) fn cut(elements: &'a [E], n_tiles: f64) -> Self {
         let mut total = 0.0;
         let mut cumulative = vec![total];
@@ -145,7 +147,7 @@ impl<'a, E: Element> Samples<'a, E> {
         let mut first_tile = vec![n_before];
         let mut parts = Vec::with_capacity(elements.len());
         for sizes in cumulative.windows(2) {
-            // NaN where no element has a size, which rounds to 0.
+            // NaN if no element has a size; it rounds to 0.
             let share = (sizes[1] - sizes[0]) / total * n_tiles;
             let n = round(E::parts_for(share)).clamp(1, MAX_PARTS);
             n_before += E::n_tiles(n);
@@ -179,7 +181,7 @@ impl<'a, E: Element> Samples<'a, E> {
         })
     }
 
-    /// Number of the first sample that is not before the tile `index` of an element.
+    /// Number of the first sample that is not before tile `index` of an element.
     fn first_sample_after(&self, element: usize, index: u64) -> usize {
         let [start, end] = [self.cumulative[element], self.cumulative[element + 1]];
         let n_tiles = E::n_tiles(self.parts[element]);
@@ -209,7 +211,7 @@ fn round(x: f64) -> u32 {
     x.round() as u32
 }
 
-/// What follows the point of a number that is not negative. `f64::fract` would call a function for each.
+/// The fractional part of a number that is not negative. `f64::fract` would be a function call.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "as many samples as fit a u64")]
 fn fraction(x: f64) -> f64 {
     x - (x as u64) as f64
@@ -239,7 +241,8 @@ mod tests {
                 (0..Triangle::n_tiles(parts)).map(|index| TRIANGLES[0].tile(parts, index)).collect();
             let part = 6.0 / tiles.len() as f64;
             assert!(tiles.iter().all(|tile| (tile.size() - part).abs() < 1e-12));
-            // Equal areas that add up: a partition unless two overlap, and then their centroids coincide.
+            // Equal areas that add up: a partition, unless two tiles overlap, and then their
+            // centroids coincide.
             let centroid = |tile: &Triangle| tile.at(1.0 / 3.0, 1.0 / 3.0);
             for (i, first) in tiles.iter().enumerate() {
                 assert!(point_triangle_distance_sq(centroid(first), &TRIANGLES[0]) < 1e-24);

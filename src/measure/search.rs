@@ -1,9 +1,10 @@
-//! Searches in the hierarchy: the nearest triangle, the triangle that bounds a convex piece best, and the part of the
-//! tree that matters to a region.
+//! Searches in the hierarchy: for the nearest triangle, for the triangle that bounds a convex piece
+//! best, and for the part of the tree that matters to a region.
 //!
-//! One traversal serves both searches. For the corners of a convex piece it finds the triangle whose largest distance
-//! from a corner is least; since the distance to a triangle is a convex function, that largest corner distance bounds
-//! the distance from every point of the piece. For a piece of one corner it is the nearest triangle.
+//! One traversal serves the first two. For the corners of a convex piece it finds the triangle
+//! whose largest distance from a corner is least. The distance to a triangle is a convex function,
+//! so that largest corner distance bounds the distance of every point of the piece. For a piece of
+//! one corner the result is the nearest triangle.
 
 use multiversion::multiversion;
 
@@ -14,7 +15,7 @@ use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::{PreparedTriangle, larger};
 use crate::geometry::vector::Vector;
 
-/// Subtrees that a [`Front`] holds at most.
+/// Most subtrees of a [`Front`].
 const FRONT_LEN: usize = 16;
 
 /// Triangles under a hierarchy.
@@ -29,32 +30,33 @@ pub(super) struct Tree {
 /// The answer to a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
-    /// Least, over all triangles, of the largest squared distance from a corner.
+    /// The least value, over all triangles, of the largest squared distance from a corner.
     pub(super) distance_sq: f64,
-    /// A triangle at which it is attained.
+    /// A triangle with that value.
     pub(super) triangle: u32,
 }
 
 impl Found {
-    /// Farther than anything.
+    /// Larger than any answer.
     pub(super) const NOTHING: Self = Self { distance_sq: f64::INFINITY, triangle: 0 };
 }
 
-/// Subtrees that hold every triangle that can be nearest to some point of a region, hung below nodes of their own.
+/// Subtrees that together hold every triangle that can be nearest to some point of a region, as
+/// children of their own nodes.
 #[derive(Default)]
 pub(super) struct Front {
     subtrees: Vec<(Bounds, Child)>,
     nodes: Vec<Node>,
 }
 
-/// Memory that searches reuse.
+/// Buffers that searches reuse.
 #[derive(Default)]
 pub(super) struct Stack {
     nodes: Vec<(f64, u32)>,
 }
 
 impl Tree {
-    /// Takes over triangles that are in the order of the nodes' leaves.
+    /// Takes triangles in the order of the leaves of the nodes.
     pub(super) fn new(nodes: Vec<Node>, triangles: Vec<Triangle>) -> Self {
         let prepared = triangles.iter().map(PreparedTriangle::new).collect();
         Self { nodes, triangles, prepared }
@@ -71,7 +73,7 @@ impl Tree {
         self.prepared[triangle as usize].distance_sq(p)
     }
 
-    /// The bound that one triangle gives: the largest distance from a corner.
+    /// The bound that one triangle gives: its largest distance from a corner.
     pub(super) fn bound(&self, corners: &[Vector], triangle: u32) -> Found {
         let distances_sq = corners.iter().map(|&corner| self.distance_sq(corner, triangle));
         Found { distance_sq: distances_sq.fold(0.0, larger), triangle }
@@ -79,7 +81,8 @@ impl Tree {
 
     /// The triangle whose largest distance from one of the corners is least.
     ///
-    /// The closer `hint` is to it, the less is visited. About 0.2 us for a point with a good hint.
+    /// The closer `hint` is to it, the fewer nodes are visited. About 0.2 us for a point with a
+    /// good hint.
     pub(super) fn search(&self, corners: &[Vector], hint: u32, stack: &mut Stack) -> Found {
         let mut best = Found { distance_sq: f64::INFINITY, triangle: hint };
         self.improve(&mut best, corners, hint);
@@ -113,7 +116,7 @@ impl Tree {
         best
     }
 
-    /// Lets a triangle replace the best one if it bounds all corners better.
+    /// Replaces the best triangle if this one bounds all corners better.
     #[inline(always)]
     fn improve(&self, best: &mut Found, corners: &[Vector], triangle: u32) {
         let candidate = &self.prepared[triangle as usize];
@@ -129,9 +132,10 @@ impl Tree {
 
     /// Finds the distances of all points of a batch, and triangles that bound its tile.
     ///
-    /// Only triangles of the front, which must be that of a region around the tile, and the triangle `hint` are
-    /// considered. Instead of each point by itself, the tile's box walks down the tree, and every triangle that can
-    /// still be nearest to one of the points is compared with all of them in one go.
+    /// Only triangles of the front, which must be that of a region around the tile, and the
+    /// triangle `hint` are considered. The box of the tile walks down the tree instead of each
+    /// point, and every triangle that can be nearest to one of the points is compared with all of
+    /// them at once.
     pub(super) fn search_batch(&self, batch: &mut Batch, front: &Front, hint: u32, stack: &mut Stack) {
         search_batch(self, batch, front, hint, &mut stack.nodes);
     }
@@ -162,8 +166,8 @@ impl Tree {
     }
 }
 
-/// [`Tree::search_batch`], compiled for wider vectors too where the machine has them: the same operations in the same
-/// order, so the same bits, in two thirds of the time.
+/// [`Tree::search_batch`], also compiled for wider vectors, which are used if the machine has them.
+/// The operations and their order are the same, hence the bits too; the time is two thirds.
 #[multiversion(targets("x86_64+avx2"))]
 fn search_batch(tree: &Tree, batch: &mut Batch, front: &Front, hint: u32, stack: &mut Vec<(f64, u32)>) {
     batch.improve(&tree.prepared[hint as usize], hint);
@@ -206,7 +210,8 @@ fn lanes_below(distances_sq: &[f64; LANES], limit_sq: f64) -> impl Iterator<Item
     })
 }
 
-/// Pushes a node onto the part of the stack above `bottom`, which stays sorted with the nearest on top.
+/// Pushes a node onto the part of the stack above `bottom`, which stays sorted with the nearest on
+/// top.
 #[inline(always)]
 fn push_in_order(stack: &mut Vec<(f64, u32)>, bottom: usize, entry: (f64, u32)) {
     stack.push(entry);
@@ -288,7 +293,8 @@ mod tests {
             for (point, distance_sq) in batch.samples() {
                 prop_assert!((distance_sq.sqrt() - brute_force(&triangles, &[point])).abs() < 1e-12);
             }
-            // A bound may be missed by triangles that are nearest to no point, but it is that of its triangle.
+            // A bound may miss triangles that are nearest to no point, but it is valid for its
+            // triangle.
             for (corners, bound) in batch.quarters().map(|quarter| (quarter.corners, quarter.bound)) {
                 let own = brute_force(&tree.triangles()[bound.triangle as usize..][..1], &corners);
                 prop_assert!((bound.distance_sq.sqrt() - own).abs() < 1e-12);

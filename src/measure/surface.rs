@@ -1,9 +1,11 @@
-//! A mesh made ready for measuring: the vertices and triangles that are its surface, in the order of a hierarchy.
+//! A mesh prepared for measuring: the vertices and triangles of its surface, in the order of a
+//! hierarchy.
 //!
-//! Both meshes are brought into one frame, `f64` about the centre of the reference's bounding box. Vertices that no
-//! triangle uses are not on the surface and are left out. Triangles stand in the order of the hierarchy's leaves and
-//! vertices in the order in which those triangles use them, so that neighbours in space are neighbours in memory and
-//! one search begins where the last one ended.
+//! Both meshes are placed in one frame, `f64` about the centre of the bounding box of the
+//! reference. Vertices that no triangle uses are not on the surface and are left out. Triangles are
+//! in the order of the leaves of the hierarchy, and vertices in the order in which these triangles
+//! use them. So neighbours in space are neighbours in memory, and one search begins where the last
+//! one ended.
 
 use rayon::prelude::*;
 
@@ -16,7 +18,8 @@ use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{self, Vector};
 use crate::mesh::{TooMany, check_counts};
 
-/// Coordinates above this are refused: sixth powers of lengths would come near the end of `f64`.
+/// Coordinates above this are refused: sixth powers of lengths would come close to the largest
+/// `f64`.
 const MAX_COORDINATE: f64 = 1e40;
 
 /// The surface of one mesh.
@@ -27,7 +30,8 @@ pub(super) struct Surface {
     pub(super) vertices: Vec<Vector>,
     /// Every edge once, lower vertex first, as indices into `vertices`.
     pub(super) edges: Vec<[u32; 2]>,
-    /// Largest coordinate that took part in placing the surface: rounding errors are a multiple of it.
+    /// Largest coordinate that was used in placing the surface; rounding errors are a multiple of
+    /// it.
     pub(super) magnitude: f64,
 }
 
@@ -64,12 +68,12 @@ impl Frame {
 }
 
 impl Frame {
-    /// What takes a mesh's positions into the frame.
+    /// The vector that moves the positions of a mesh into the frame.
     pub(super) fn offset(&self, mesh: &TriangleMesh) -> Vector {
         vector::sub(vector::sub(mesh.origin, self.origin), self.centre)
     }
 
-    /// A point of the frame in file coordinates.
+    /// A point of the frame, in file coordinates.
     pub(super) fn to_file(self, p: Vector) -> [f64; 3] {
         vector::add(vector::add(p, self.centre), self.origin)
     }
@@ -113,7 +117,8 @@ impl Surface {
     }
 }
 
-/// Checks what measuring relies on: triangles, indices below the number of vertices, finite coordinates where used.
+/// Checks what measuring relies on: there are triangles, indices are below the number of vertices,
+/// and the coordinates they use are finite.
 fn check(mesh: &TriangleMesh, side: Side) -> Result<(), MeasureError> {
     let n_vertices = mesh.positions.len();
     if mesh.triangles.is_empty() {
@@ -137,7 +142,8 @@ fn check(mesh: &TriangleMesh, side: Side) -> Result<(), MeasureError> {
     })
 }
 
-/// Numbers vertices in the order of their first use: the old index of each new one, and the corners renumbered.
+/// Numbers vertices in the order of their first use. Returns the old index of each new vertex, and
+/// the renumbered corners.
 fn number_by_use(corners: impl Iterator<Item = [u32; 3]>, n_vertices: usize) -> (Vec<u32>, Vec<[u32; 3]>) {
     const UNUSED: u32 = u32::MAX;
     let mut new_ids = vec![UNUSED; n_vertices];
@@ -159,7 +165,8 @@ fn number_by_use(corners: impl Iterator<Item = [u32; 3]>, n_vertices: usize) -> 
     (old_ids, renumbered)
 }
 
-/// Every edge of the triangles once, lower vertex first, ordered by it; what joins a vertex to itself is left out.
+/// Every edge of the triangles once, ordered by its lower vertex, which comes first. Edges from a
+/// vertex to itself are left out.
 fn collect_edges(triangles: &[[u32; 3]], n_vertices: usize) -> Vec<[u32; 2]> {
     let edges = || {
         triangles
@@ -168,7 +175,7 @@ fn collect_edges(triangles: &[[u32; 3]], n_vertices: usize) -> Vec<[u32; 2]> {
             .map(|[a, b]| [a.min(b), a.max(b)])
             .filter(|[a, b]| a != b)
     };
-    // A counting sort by the lower vertex; the few that share it are sorted among themselves.
+    // A counting sort by the lower vertex; the few edges that share it are sorted among themselves.
     let mut places = vec![0usize; n_vertices + 1];
     for [low, _] in edges() {
         places[low as usize + 1] += 1;

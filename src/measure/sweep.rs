@@ -1,8 +1,10 @@
-//! One pass over a surface: the distances of its vertices and samples from the other one, and a first bound.
+//! One pass over a surface: the distances of its vertices and samples from the other surface, and a
+//! first bound.
 //!
-//! The plain way searches the whole hierarchy for every sample. The samples of one tile lie close together, so here a
-//! tile is one search, and the corners of its quarters, which take part in it, give first upper bounds for the proof. The tiles
-//! of a chunk lie close together too, so each of these searches begins at the few nodes that matter to the chunk.
+//! The plain way searches the whole hierarchy for every sample. The samples of one tile lie close
+//! together, so here a tile is one search, and the corners of its quarters, which take part in it,
+//! give first upper bounds for the proof. The tiles of a chunk lie close together too, so each of
+//! these searches begins at the few nodes that matter to the chunk.
 
 use std::ops::Range;
 
@@ -45,7 +47,7 @@ pub(super) struct Farthest {
 }
 
 impl Farthest {
-    /// The one of two that is farther away, this one if they are equal.
+    /// The farther of the two; this one if they are equally far.
     pub(super) fn or(self, other: Self) -> Self {
         if other.distance_sq > self.distance_sq { other } else { self }
     }
@@ -69,8 +71,8 @@ impl Tally {
     }
 }
 
-/// Distances of points from a surface, NaN for one that is not finite. Neighbours in the slice should be neighbours in
-/// space.
+/// Distances of points from a surface; NaN for a point that is not finite. Neighbours in the slice
+/// should be neighbours in space.
 pub(super) fn point_distances(points: &[Vector], target: &Tree) -> Vec<f64> {
     let mut distances = vec![0.0; points.len()];
     let chunks = distances.par_chunks_mut(VERTICES_PER_CHUNK).zip(points.par_chunks(VERTICES_PER_CHUNK));
@@ -89,7 +91,7 @@ pub(super) fn point_distances(points: &[Vector], target: &Tree) -> Vec<f64> {
     distances
 }
 
-/// The tally of points whose distances are known.
+/// The tally of points with known distances.
 pub(super) fn tally_points(points: &[Vector], distances: &[f64]) -> Tally {
     let mut tally = Tally::default();
     for (&point, &distance) in points.iter().zip(distances) {
@@ -111,7 +113,8 @@ pub(super) fn sweep_edges(samples: &Samples<'_, Segment>, target: &Tree) -> Tall
     .fold(Tally::default(), Tally::merge)
 }
 
-/// The tally of all samples inside triangles, and what is proven of all tiles: those above `settled_sq` are open.
+/// The tally of all samples inside triangles, and the proven bound of all tiles: tiles above
+/// `settled_sq` stay open.
 pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settled_sq: f64) -> (Tally, Parts) {
     let chunks = sweep(samples, target, |walk, tiles| {
         let mut tally = Tally::default();
@@ -143,7 +146,8 @@ pub(super) fn face_distances(samples: &Samples<'_, Triangle>, target: &Tree) -> 
     .concat()
 }
 
-/// Gives every chunk of tiles to a visitor, in parallel; the results stand in the order of the tiles.
+/// Passes every chunk of tiles to a visitor, in parallel; the results are in the order of the
+/// tiles.
 fn sweep<E: Element, T: Send>(
     samples: &Samples<'_, E>,
     target: &Tree,
@@ -187,8 +191,8 @@ impl Walk {
         target.front(region, radius * radius * (1.0 + 1e-9), &mut self.front);
     }
 
-    /// Gives the squared distance of each sample of a tile within the region to `count`, and leaves the tile's bounds in
-    /// the batch.
+    /// Passes the squared distance of each sample of a tile within the region to `count`, and
+    /// leaves the bounds of the tile in the batch.
     fn visit<E: Element>(&mut self, tile: &Tile<E>, target: &Tree, mut count: impl FnMut(Vector, f64)) {
         let mut points = tile.points().peekable();
         loop {

@@ -39,7 +39,7 @@ const SCALARS: [ScalarType; 8] = [
     ScalarType::F64,
 ];
 
-/// Number of a component type in the file.
+/// Code of a component type in the file.
 pub fn scalar_code(scalar: ScalarType) -> u32 {
     match scalar {
         ScalarType::I8 => 0,
@@ -53,7 +53,7 @@ pub fn scalar_code(scalar: ScalarType) -> u32 {
     }
 }
 
-/// Component type of a number in the file.
+/// Component type of a code in the file; `None` if the code is unknown.
 pub fn scalar_from_code(code: u32) -> Option<ScalarType> {
     SCALARS.get(usize::try_from(code).ok()?).copied()
 }
@@ -71,12 +71,14 @@ pub struct AttributeEntry {
     pub values: Range<u64>,
 }
 
-/// Checks an attribute table against its names, the number of vertices and the length of the values: names and values
-/// follow each other without holes, names are distinct, lengths fit. Cost: at most [`MAX_ATTRIBUTES`] records.
+/// Checks an attribute table against its names, the number of vertices and the length of the
+/// values: names and values follow each other without holes, names are distinct, lengths fit. Cost:
+/// at most [`MAX_ATTRIBUTES`] records.
 ///
 /// # Errors
 ///
-/// [`NephError::Attribute`], [`NephError::AttributeName`] or [`NephError::SectionBytes`] for the first rule that is broken.
+/// [`NephError::Attribute`], [`NephError::AttributeName`] or [`NephError::SectionBytes`] for the
+/// first rule that is broken.
 pub fn read_attributes(
     table: &[AttributeRecord],
     names: &[u8],
@@ -100,7 +102,7 @@ pub fn read_attributes(
         check("name_bytes", record.name_bytes.into(), record.name_bytes.max(1).into())?;
         check("name_offset", record.name_offset.into(), name_end)?;
         check("values_offset", record.values_offset, align(values_end))?;
-        // 2^32 vertices of 2^32 components of 8 bytes leave 64 bits.
+        // 2^32 vertices of 2^32 components of 8 bytes would not fit in 64 bits.
         let stride = u64::from(record.n_components) * scalar.size_bytes() as u64;
         check(
             "values_bytes",

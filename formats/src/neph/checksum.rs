@@ -16,7 +16,7 @@ pub fn head_checksum(header: &Header, directory: &[u8]) -> u64 {
     hasher.digest()
 }
 
-/// Takes a stream in pieces of any length and gives one checksum per chunk.
+/// Hashes a stream that comes in pieces of any length, and gives one checksum per chunk.
 pub struct ChunkHasher {
     hasher: Xxh3Default,
     chunk_bytes: u64,

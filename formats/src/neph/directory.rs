@@ -1,4 +1,5 @@
-//! Reading the head of a file: header and directory, checked against each other and against the file's length.
+//! Reads the head of a file: header and directory, checked against each other and against the
+//! length of the file.
 
 use super::{
     HEADER_BYTES, Header, MAGIC, MAX_ATTRIBUTE_NAMES_BYTES, MAX_ATTRIBUTES, MAX_DEVIATION_NAMES_BYTES,
@@ -7,24 +8,26 @@ use super::{
 };
 use std::ops::Range;
 
-/// Header and sections of a file whose head is in order: sections cover the file exactly and have the lengths that the
-/// header's counts give. The contents of the sections have not been looked at.
+/// Header and sections of a file whose head is valid: sections cover the file exactly and have the
+/// lengths that the counts of the header give. The contents of the sections are not checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Directory {
     header: Header,
     body_start: u64,
-    /// Byte range by kind, `code - 1`; empty for optional sections that are not there.
+    /// Byte range of each kind, at `code - 1`; empty for an optional section that the file does not
+    /// have.
     ranges: [(u64, u64); SectionKind::ALL.len()],
     is_compact: bool,
 }
 
 impl Directory {
-    /// Reads and checks header and directory. `head` is the beginning of the file, at least its first 16 KiB or all of
-    /// it; `file_bytes` is the length of the file. Cost does not depend on that length.
+    /// Reads and checks header and directory. `head` is the beginning of the file, at least its
+    /// first 16 KiB or all of it; `file_bytes` is the length of the file. Cost does not depend on
+    /// that length.
     ///
     /// # Errors
     ///
-    /// The first rule of the format that is broken.
+    /// The first rule of the format that does not hold.
     pub fn read(head: &[u8], file_bytes: u64) -> Result<Self, NephError> {
         let header = read_header(head, file_bytes)?;
         let records = read_records(head, &header)?;
@@ -44,7 +47,7 @@ impl Directory {
         &self.header
     }
 
-    /// Offset and length of a section; length 0 when an optional section is not there.
+    /// Offset and length of a section; length 0 if an optional section is not in the file.
     pub fn section(&self, kind: SectionKind) -> (u64, u64) {
         self.ranges[kind as usize - 1]
     }
@@ -68,7 +71,7 @@ impl Directory {
     fn check_section_bytes(&self) -> Result<(), NephError> {
         let header = &self.header;
         let n_levels = u64::from(header.n_levels);
-        // Counts are below 2^32 and widths small, so no product here leaves 64 bits.
+        // Counts are below 2^32 and widths small, so no product here exceeds 64 bits.
         let exact = [
             (SectionKind::Errors, 8 * n_levels),
             (SectionKind::SimplexCounts, 4 * n_levels),
@@ -105,7 +108,7 @@ impl Directory {
         Ok(())
     }
 
-    /// The slots, in one form or the other, are as many as the header says.
+    /// Checks that there are as many slots as the header says, in either form.
     fn check_slot_bytes(&self) -> Result<(), NephError> {
         let Header { n_slots, n_corners, n_vertices, n_levels, .. } = self.header;
         let n_corners = u64::from(n_corners);
@@ -135,14 +138,15 @@ pub fn index_bytes(n_vertices: u64) -> u64 {
     if n_vertices <= 1 << 16 { 2 } else { 4 }
 }
 
-/// Bytes of a stamp in the compact form. Stamps are levels, or one more.
+/// Bytes of a stamp in the compact form. A stamp is a level, or the number of levels.
 pub fn stamp_bytes(n_levels: u32) -> u64 {
     if n_levels <= u32::from(u16::MAX) { 2 } else { 4 }
 }
 
 fn read_header(head: &[u8], file_bytes: u64) -> Result<Header, NephError> {
     let Some(bytes) = head.get(..HEADER_BYTES) else {
-        // A short file of another kind is better named than called truncated.
+        // For a short file of another kind, the wrong signature is the better error than the
+        // length.
         if let Some(&found) = head.first_chunk::<8>().filter(|found| **found != MAGIC) {
             return Err(NephError::Magic { found });
         }

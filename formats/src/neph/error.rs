@@ -2,7 +2,8 @@
 
 use super::SectionKind;
 
-/// Header, directory or attribute table break a rule of the format. Offsets and lengths are in bytes.
+/// Header, directory or attribute table break a rule of the format. Offsets and lengths are in
+/// bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NephError {
@@ -28,7 +29,8 @@ pub enum NephError {
         /// Version of this crate.
         expected: u32,
     },
-    /// The header's length is not the file's: truncated, or with bytes behind its end.
+    /// The length in the header is not that of the file: it was truncated, or has bytes after its
+    /// end.
     #[error("file has {found} bytes where its header says {expected}")]
     FileBytes {
         /// Length of the file.
@@ -142,8 +144,8 @@ pub enum NephError {
         /// Value by the rules, or the largest allowed.
         expected: u64,
     },
-    /// A name of the attribute table is no UTF-8 or occurs twice.
-    #[error("name of attribute {index} is no UTF-8 or occurs twice")]
+    /// The name of an attribute is not UTF-8 or occurs twice.
+    #[error("name of attribute {index} is not UTF-8 or occurs twice")]
     AttributeName {
         /// Which record.
         index: u64,

@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// First eight bytes of every file: a byte that is no text, the name, and line ends that a text transfer would damage.
+/// First eight bytes of every file: a byte that is not text, the name, and line ends that a text
+/// transfer would change.
 pub const MAGIC: [u8; 8] = *b"\x89NEPH\r\n\x1a";
 /// Version that this crate writes and reads.
 pub const VERSION: u32 = 1;
@@ -15,8 +16,8 @@ pub const MAX_LEVELS: u64 = 1 << 31;
 /// Bytes per checksummed chunk in files that the engine writes.
 pub const CHUNK_BYTES: u64 = 1 << 20;
 
-/// The first 192 bytes of a file. Every bit pattern is a valid value; [`Directory::read`](super::Directory::read)
-/// checks the meaning.
+/// The first 192 bytes of a file. Every bit pattern is a valid value;
+/// [`Directory::read`](super::Directory::read) checks the meaning.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Header {

@@ -1,8 +1,9 @@
-//! The `.neph` file: its records and the rules that tie them together. `SPEC.md` beside this crate is the description;
-//! names here follow it.
+//! The `.neph` file: its records and the rules between them. `SPEC.md` beside this crate is the
+//! description; names here follow it.
 //!
-//! The engine writes a file by [`plan`]ning its sections and streaming them through a [`ChunkHasher`], and reads one by
-//! checking its [`Directory`], which touches the first 16 KiB and nothing else.
+//! The engine writes a file by [`plan`]ning its sections and streaming them through a
+//! [`ChunkHasher`]. It reads a file by checking its [`Directory`], which reads the first 16 KiB
+//! only.
 
 mod attribute;
 mod checksum;

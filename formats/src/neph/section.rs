@@ -42,13 +42,15 @@ pub enum SectionKind {
     AttributeValues = 12,
     /// `u64` per chunk of the body.
     Checksums = 13,
-    /// `u32` per vertex: level from which on it is there.
+    /// `u32` per vertex: the first level that has it.
     VertexBirths = 14,
-    /// Compact form: `n_corners` indices for each simplex that a slot is the first to hold.
+    /// Compact form: `n_corners` indices for each distinct simplex, in the order of the first slot
+    /// that holds it.
     DistinctSimplices = 15,
-    /// Compact form: a bit per slot, in `u64` words, set where the simplex is one that an earlier slot holds.
+    /// Compact form: one bit per slot, in `u64` words, set if an earlier slot holds the same
+    /// simplex.
     RepeatBits = 16,
-    /// Compact form: `u32` per set bit, place of the simplex among the distinct ones.
+    /// Compact form: one `u32` per set bit, the place of the simplex among the distinct ones.
     RepeatSources = 17,
     /// Compact form: a stamp per slot.
     CompactStamps = 18,
@@ -56,7 +58,7 @@ pub enum SectionKind {
     DeviationNames = 19,
     /// `f64` per level, one deviation after the other.
     Deviations = 20,
-    /// Operations that lead from nothing to the input, see `progressive_mesh` of the engine.
+    /// Operations that lead from an empty mesh to the input, see `progressive_mesh` of the engine.
     Operations = 21,
 }
 
@@ -103,12 +105,12 @@ impl SectionKind {
         self as u32
     }
 
-    /// Kind of a number, or `None` when this version does not know it.
+    /// Kind of a number; `None` if this version does not know it.
     pub fn from_code(code: u32) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.code() == code)
     }
 
-    /// Whether a file that has it cannot be understood without it.
+    /// Whether a file with this section cannot be read without understanding it.
     pub fn is_required(self) -> bool {
         !matches!(
             self,
@@ -139,7 +141,7 @@ pub struct SectionRecord {
     pub reserved: u64,
 }
 
-/// The next multiple of [`SECTION_ALIGNMENT`]; saturates at the end of the number range.
+/// The next multiple of [`SECTION_ALIGNMENT`]; saturates at `u64::MAX`.
 pub fn align(offset: u64) -> u64 {
     offset.checked_next_multiple_of(SECTION_ALIGNMENT).unwrap_or(u64::MAX)
 }
@@ -155,12 +157,13 @@ pub struct Placement {
     pub file_bytes: u64,
 }
 
-/// Places sections of the given lengths one after the other and adds the checksum section behind them.
+/// Places sections of the given lengths one after the other and adds the checksum section at the
+/// end.
 ///
 /// # Errors
 ///
-/// [`NephError::TooManySections`] when the directory would not fit in the head, [`NephError::TooLarge`] when an offset
-/// would not fit in 64 bits.
+/// [`NephError::TooManySections`] if the directory would not fit in the head,
+/// [`NephError::TooLarge`] if an offset would not fit in 64 bits.
 pub fn plan(sections: &[(SectionKind, u64)], chunk_bytes: u64) -> Result<Placement, NephError> {
     let n_sections = sections.len() + 1;
     let head_bytes = HEADER_BYTES + n_sections * SECTION_RECORD_BYTES;

@@ -1,7 +1,8 @@
-//! Temporary files that a killed process left behind.
+//! Temporary files that a killed process left.
 //!
-//! Their names are `.nephrite-OUTPUT-RANDOM.tmp`, with OUTPUT as the checksum of the output's name in 16 digits: names may
-//! be as long as a file system allows, and what is put before them must not make them longer.
+//! Their names are `.nephrite-OUTPUT-RANDOM.tmp`, where OUTPUT is the checksum of the name of the
+//! output in 16 digits. A name may already be as long as the file system allows, so the name of the
+//! temporary file must not contain it.
 
 use super::Storage;
 use crate::neph::checksum;
@@ -13,15 +14,16 @@ pub const LEFTOVER_PREFIX: &str = ".nephrite-";
 /// Last letters of a temporary file's name.
 pub const LEFTOVER_SUFFIX: &str = ".tmp";
 
-/// How the names of the temporary files of an output begin.
+/// Prefix of the names of the temporary files of an output.
 pub(super) fn prefix(target: &Path) -> OsString {
     let name = target.file_name().unwrap_or_default();
     format!("{LEFTOVER_PREFIX}{:016x}-", checksum(name.as_encoded_bytes())).into()
 }
 
-/// Removes the temporary files of an output that nobody is writing any more. Cost: one look at every name in the folder.
+/// Removes the temporary files of an output that no process is writing. Cost: one look at every
+/// name in the folder.
 ///
-/// What cannot be removed stays: a new file can be written beside it.
+/// A file that cannot be removed stays; a new file can be written beside it.
 pub(super) fn remove_abandoned(storage: &impl Storage, folder: &Path, target: &Path) {
     let prefix = prefix(target);
     let Ok(names) = storage.names(folder) else { return };

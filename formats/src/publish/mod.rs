@@ -1,11 +1,11 @@
 //! Files that appear whole or not at all.
 //!
-//! Writing in place leaves half a file after a full disk or an interrupt, and has already lost the old one. Here the bytes go
-//! to a temporary file in the same folder, reach the disk, are looked at once more, and take the name by one rename; a
-//! failure removes them. A process that is killed can remove nothing: what it leaves is removed by the next write of the
-//! same output.
+//! Writing in place leaves half a file after a full disk or an interrupt, and has already lost the
+//! old one. Here the bytes go to a temporary file in the same folder, are synced to the disk and
+//! read again, and get the name of the output by one rename. After a failure the temporary file is
+//! removed. A killed process cannot remove it; the next write of the same output does.
 //!
-//! Whatever is done to the disk goes through [`Storage`], so that tests can make every single operation fail.
+//! All operations on the disk go through [`Storage`], so that tests can make each one fail.
 
 mod leftovers;
 mod storage;
@@ -23,18 +23,19 @@ const BUFFER_BYTES: usize = 256 * 1024;
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {action} {}", path.display())]
 pub struct PublishError {
-    /// What was tried: `create a file in`, `write`, `sync`, `check`, `rename a file to` or `replace`.
+    /// What was tried: `create a file in`, `write`, `sync`, `check`, `rename a file to` or
+    /// `replace`.
     pub action: &'static str,
     /// The file or folder concerned.
     pub path: PathBuf,
-    /// Answer of the system.
+    /// Answer of the operating system.
     pub source: io::Error,
 }
 
-/// Lets `write` fill the file `path`, replacing what was there only once everything is written.
+/// Lets `write` fill the file `path`, and replaces the old file only after everything is written.
 ///
-/// A link at `path` stays and its target is replaced. What is not a regular file (a pipe, `/dev/stdout`) is written directly,
-/// as renaming over it would destroy it.
+/// A link at `path` stays and its target is replaced. A file that is not regular (a pipe,
+/// `/dev/stdout`) is written directly, because a rename would destroy it.
 ///
 /// # Errors
 ///
@@ -61,7 +62,7 @@ pub fn publish<T, E: From<io::Error>>(
     })
 }
 
-/// Whose error ended a publication by [`publish`].
+/// Which part of [`publish`] failed.
 enum Failure<E> {
     Caller(E),
     System(PublishError),
@@ -73,16 +74,18 @@ impl<E> From<PublishError> for Failure<E> {
     }
 }
 
-/// Lets `write` fill a temporary file beside `path`, syncs it, lets `check` look at it once more by its path, renames it to
-/// `path` and syncs the folder. At any moment `path` holds what it held before or the whole new file.
+/// Lets `write` fill a temporary file beside `path`, syncs it, lets `check` read it again by its
+/// path, renames it to `path` and syncs the folder. At any moment `path` holds what it held before
+/// or the whole new file.
 ///
-/// A link at `path` stays and its target is replaced. Leftovers of killed writes of the same output are removed first.
+/// A link at `path` stays and its target is replaced. Leftovers of killed writes of the same output
+/// are removed first.
 ///
 /// # Errors
 ///
-/// Those of `write` and `check`, and [`PublishError`] for the rest, also where `path` is something else than a regular file.
-/// The temporary file is removed and `path` is as it was. When only the last sync of the folder fails, the new file is in
-/// place and may be lost by a crash of the system.
+/// Those of `write` and `check`, and [`PublishError`] for everything else, also if `path` is not a
+/// regular file. The temporary file is removed and `path` is as it was. If only the last sync of
+/// the folder fails, the new file is in place and may be lost if the system crashes.
 pub fn publish_in<S: Storage, T, E: From<PublishError>>(
     storage: &S,
     path: &Path,
@@ -142,13 +145,13 @@ impl<S: Storage> Temporary<'_, S> {
 impl<S: Storage> Drop for Temporary<'_, S> {
     fn drop(&mut self) {
         if !self.is_kept {
-            // There is nobody to tell; what stays is a leftover like that of a killed process.
+            // There is nobody to report to; a file that stays is like one of a killed process.
             let _ = self.storage.remove(&self.path);
         }
     }
 }
 
-/// A new file in `folder` under a name that says what it becomes.
+/// A new file in `folder`, with a name made from that of its output.
 fn create_beside<'a, S: Storage>(
     storage: &'a S,
     folder: &Path,
@@ -158,7 +161,7 @@ fn create_beside<'a, S: Storage>(
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(LEFTOVER_SUFFIX);
     let (file, path) = builder.make_in(folder, |path| storage.create(path))?.into_parts();
-    // The guard of `tempfile` would go round the storage.
+    // The guard of `tempfile` would bypass the storage.
     let path = path.keep().map_err(|error| error.error)?;
     Ok((file, Temporary { storage, path, is_kept: false }))
 }
