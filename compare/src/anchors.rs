@@ -1,11 +1,13 @@
-//! Figures of other systems that the tables stand beside. Errors are in percent of the bounding box diagonal.
+//! Published and measured figures of other systems, for the tables. Errors are in percent of the
+//! bounding box diagonal.
 //!
-//! Those of the JADE paper are its own measurements: tables 2 and 4 to 7 of A. Ciampalini, P. Cignoni, C. Montani and
-//! R. Scopigno, "Multiresolution decimation based on global error", *The Visual Computer* 13, 1997. All others were
-//! measured on a two-core machine, two-sided, by PyMeshLab's Metro with 400,000 samples and more, on the triangles alone
-//! (a vertex that no triangle uses is not on a surface): CGAL 6 polyhedral envelope, Garland-Heckbert and Lindstrom-Turk;
-//! vtkQuadricDecimation and vtkDecimatePro of VTK 9; quadric edge collapse of PyMeshLab; meshoptimizer's `simplify`;
-//! fast-simplification for Python.
+//! Those of the JADE paper are its own measurements: tables 2 and 4 to 7 of A. Ciampalini, P.
+//! Cignoni, C. Montani and R. Scopigno, "Multiresolution decimation based on global error", *The
+//! Visual Computer* 13, 1997. All others were measured on a two-core machine, two-sided, by
+//! PyMeshLab's Metro with 400,000 samples and more, on the triangles alone (a vertex that no
+//! triangle uses is not on a surface): CGAL 6 polyhedral envelope, Garland-Heckbert and
+//! Lindstrom-Turk; vtkQuadricDecimation and vtkDecimatePro of VTK 9; quadric edge collapse of
+//! PyMeshLab; meshoptimizer's `simplify`; fast-simplification for Python.
 
 /// A surface of the tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +43,7 @@ pub struct Simplified {
     pub measured: f64,
 }
 
-/// What other systems need to stay within an error.
+/// Triangles that other systems need for an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtError {
     /// The surface.
@@ -105,7 +107,8 @@ pub struct AtTriangles {
     pub subject: Subject,
     /// Triangles asked for.
     pub n_triangles: u32,
-    /// Errors in percent in the order of [`SYSTEMS`]; NaN where a system was not measured or does not get there.
+    /// Errors in percent, in the order of [`SYSTEMS`]; NaN if a system was not measured or does not
+    /// reach the count.
     pub errors: [f64; 8],
 }
 

@@ -1,5 +1,5 @@
-//! A volume on its way through the steps of its history, with all that must stay: positive tetrahedra, the volume, and the topology of
-//! the boundary.
+//! A volume at the steps of its history, with all that must hold: positive tetrahedra, the volume,
+//! and the topology of the boundary.
 
 use nephrite::{History, TetrahedronMesh};
 use std::collections::HashMap;
@@ -10,8 +10,8 @@ const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// The volume at one step.
 ///
-/// A tetrahedron is inverted or not for its whole life, since vertices do not move but are replaced: each is looked at once, when it is
-/// born, and that is every tetrahedron of every step.
+/// A tetrahedron is inverted or not for its whole life, because vertices are replaced and do not
+/// move. So each is checked once, when it is born, and that covers every tetrahedron of every step.
 #[derive(Debug, Default)]
 pub struct BoundaryWalk {
     /// Six times the volume.
@@ -22,7 +22,7 @@ pub struct BoundaryWalk {
     pub n_inverted: usize,
     /// Faces with three tetrahedra or more, now.
     pub n_crowded_faces: i64,
-    /// Edges of the boundary with a number of its faces other than two, now.
+    /// Edges of the boundary with other than two of its faces, now.
     pub n_open_edges: i64,
     faces: HashMap<[u32; 3], u32>,
     boundary_edges: HashMap<[u32; 2], u32>,
@@ -100,7 +100,7 @@ impl BoundaryWalk {
     }
 }
 
-/// Changes a count, which is not kept where it is zero; gives it before and after.
+/// Changes a count and removes it at 0; returns it before and after.
 fn counted<K>(entry: Entry<'_, K, u32>, change: i32) -> [u32; 2] {
     match entry {
         Entry::Vacant(vacant) => {
@@ -123,7 +123,8 @@ fn counted<K>(entry: Entry<'_, K, u32>, change: i32) -> [u32; 2] {
     }
 }
 
-/// What happens at each step of a history: the simplices that die and those that are born, by their places in it. O(n).
+/// The simplices that die and those that are born at each step of a history, by their places in it.
+/// O(n).
 pub fn events(history: &History<4>) -> Vec<[Vec<usize>; 2]> {
     let mut events = vec![[Vec::new(), Vec::new()]; history.errors.len()];
     for (i, (&birth, &death)) in history.birth.iter().zip(&history.death).enumerate() {

@@ -1,4 +1,4 @@
-//! What an engine does to get its levels of detail: halve, and halve again.
+//! The chain of halvings with which an engine makes its levels of detail.
 
 use crate::CompareError;
 use meshopt::{SimplifyOptions, VertexDataAdapter, simplify, typed_to_bytes};
@@ -7,8 +7,8 @@ use nephrite::TriangleMesh;
 /// Triangles at which the chain ends.
 pub const CHAIN_END: usize = 64;
 
-/// Triangles of each level that meshoptimizer leaves when it halves a mesh, then the result, down to [`CHAIN_END`] or until
-/// nothing goes any more; the input first.
+/// Triangles of each level when meshoptimizer halves a mesh, then the result, down to [`CHAIN_END`]
+/// or until it gets no further; the input first.
 ///
 /// # Errors
 ///

@@ -40,7 +40,7 @@ pub fn load(path: &Path) -> Result<TriangleMesh, CompareError> {
 ///
 /// # Errors
 ///
-/// [`CompareError`] where the engine refuses the mesh.
+/// [`CompareError`] if the engine refuses the mesh.
 pub fn build_lod(
     mesh: &TriangleMesh,
     options: &BuildOptions,
@@ -64,8 +64,8 @@ pub fn build_lod(
     Ok(Build { lod: Lod::from_bytes(file.get_ref())?, seconds })
 }
 
-/// Levels whose triangle counts are evenly apart in the logarithm, at most `n`, each once, finest first: the last is the
-/// coarsest, the first has already lost triangles.
+/// At most `n` levels whose triangle counts are evenly spread in the logarithm, each once, finest
+/// first. The last one is the coarsest; the first one has already lost triangles.
 pub fn spread_levels(lod: &Lod, n: u32) -> Vec<u32> {
     let [finest, coarsest] =
         [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_simplices().max(1) as f64);

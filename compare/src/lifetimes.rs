@@ -1,16 +1,17 @@
-//! Lifetimes without a mesh, as many as one likes.
+//! Any number of lifetimes without a mesh.
 
 use nephrite::tree::Lifetime;
 
-/// Of the triangles that ever live in a decimation, about this part is there from the beginning.
+/// About this part of the triangles that ever live in a decimation is there from the start.
 const PART_AT_BIRTH: f64 = 0.37;
 
 /// Lifetimes like those of a decimation, from numbers instead of a mesh.
 ///
-/// A triangle is in the input with probability 0.37; otherwise it is born at a level drawn evenly. It dies after a
-/// part of the levels that are left which is the cube of an even number: most triangles are gone soon, a few stay to the
-/// end. The bunny's history has the same share of input triangles and the same median life within a factor of two.
-/// Nothing is stored: the lifetime of an id follows from a hash of the id.
+/// A triangle is in the input with probability 0.37; otherwise it is born at a uniformly random
+/// level. It dies after a part of the remaining levels that is the cube of a uniform number: most
+/// triangles are gone soon, a few stay to the end. The history of the bunny has the same share of
+/// input triangles and the same median life within a factor of two. Nothing is stored: the lifetime
+/// of an id follows from a hash of the id.
 #[derive(Clone, Copy, Debug)]
 pub struct SyntheticLifetimes {
     /// Levels that lifetimes count.
@@ -18,7 +19,7 @@ pub struct SyntheticLifetimes {
 }
 
 impl SyntheticLifetimes {
-    /// The lifetime of an id; never `None` when there is a level.
+    /// The lifetime of an id; `None` only if there is no level.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the number of levels")]
     pub fn lifetime(self, id: u32) -> Option<Lifetime> {
         let [which, when, how_long] = [1, 2, 3].map(|stream| even(u64::from(id) << 2 | stream));
@@ -29,8 +30,8 @@ impl SyntheticLifetimes {
     }
 }
 
-/// A number in `[0, 1)` from a hash of another (SplitMix64: Steele, Lea and Flood, *Fast splittable pseudorandom number
-/// generators*, OOPSLA 2014).
+/// A number in `[0, 1)` from a hash of another (SplitMix64: Steele, Lea and Flood, *Fast splittable
+/// pseudorandom number generators*, OOPSLA 2014).
 pub fn even(seed: u64) -> f64 {
     let mut z = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,14 +1,14 @@
-//! Progressive decimation as its paper does it.
+//! Progressive decimation as in its paper.
 
 use crate::CompareError;
 use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build};
 use std::ops::ControlFlow;
 
-/// Takes away this part of the triangles, all of them with 1, under the paper's accumulated error.
+/// Removes this part of the triangles, all of them for 1, under the paper's accumulated error.
 ///
 /// # Errors
 ///
-/// [`CompareError`] where the engine refuses the mesh.
+/// [`CompareError`] if the engine refuses the mesh.
 pub fn decimate_progressively(
     mesh: &TriangleMesh,
     reduction: f64,

@@ -1,6 +1,7 @@
 //! Medians, percentiles and means.
 
-/// The value below which this part of the values lies; NaN for none. The nearest rank, no interpolation.
+/// The value below which this part of the values lies; NaN for none. The nearest rank, no
+/// interpolation.
 ///
 /// ```
 /// use nephrite_compare::statistics::percentile;

@@ -1,18 +1,20 @@
-//! Times of several pieces of work in turn, so that all of them meet the same machine, reduced to medians.
+//! Times of several pieces of work in turn, so that all meet the same conditions, reduced to
+//! medians.
 
 use crate::statistics::median;
 use std::time::{Duration, Instant};
 
 /// Median seconds that each piece of work takes.
 ///
-/// The pieces run in turn, `n_samples` times each; a piece briefer than `shortest_sample` is repeated within a sample, so
-/// that reading the clock does not count.
+/// The pieces run in turn, `n_samples` times each; a piece briefer than `shortest_sample` is
+/// repeated within a sample, so that reading the clock does not count.
 ///
 /// ```
 /// use nephrite_compare::stopwatch::in_turn;
 /// use std::{hint::black_box, time::Duration};
 /// let sum = |n: u64| _ = black_box((0..n).fold(0, |sum, i| sum ^ black_box(i)));
-/// let seconds = in_turn(5, Duration::from_micros(50), &mut [&mut || sum(10), &mut || sum(100_000)]);
+/// let shortest = Duration::from_micros(50);
+/// let seconds = in_turn(5, shortest, &mut [&mut || sum(10), &mut || sum(100_000)]);
 /// assert!(seconds[0] < seconds[1]);
 /// ```
 pub fn in_turn(n_samples: usize, shortest_sample: Duration, works: &mut [&mut dyn FnMut()]) -> Vec<f64> {
@@ -26,7 +28,7 @@ pub fn in_turn(n_samples: usize, shortest_sample: Duration, works: &mut [&mut dy
     samples.iter().map(|samples| median(samples)).collect()
 }
 
-/// Calls that fill the shortest sample; 1, without a trial, where any sample is long enough.
+/// Calls that fill the shortest sample; 1, without a trial, if any sample is long enough.
 fn n_repeats(work: &mut dyn FnMut(), shortest_sample: Duration) -> u32 {
     let mut n_calls = 1;
     if shortest_sample.is_zero() {

@@ -9,7 +9,8 @@ Example:
   nephrite build bunny.ply -o bunny.neph
   cargo run --release --manifest-path renderer/Cargo.toml -- bunny.neph --instances 10000 -o field.png";
 
-/// Draws a field of meshes without a window, each at the level of detail that its distance asks for.
+/// Draws a field of meshes without a window, each at the level of detail that its distance asks
+/// for.
 #[derive(Debug, Parser)]
 #[command(name = "nephrite-renderer", version, max_term_width = 100, after_help = EXAMPLE)]
 pub(crate) struct Arguments {

@@ -1,4 +1,4 @@
-//! A surface for whoever has no file at hand.
+//! A built-in surface, for use without a file.
 
 use crate::RenderError;
 use glam::Vec3;
@@ -36,10 +36,10 @@ pub fn knot(n_triangles: u32) -> TriangleMesh {
     mesh
 }
 
-/// Carries a point of the generated torus, whose tube lies around the unit circle, over to the knot.
+/// Maps a point of the generated torus, whose tube is around the unit circle, to the knot.
 ///
-/// The knot lies on a torus of radii 2 and 1, and the normal of that torus is at right angles to it: with the tangent it spans
-/// a frame that closes after one turn.
+/// The knot lies on a torus of radii 2 and 1, and the normal of that torus is at right angles to
+/// it. Together with the tangent, it spans a frame that closes after one turn.
 fn tied([x, y, z]: [f32; 3]) -> [f32; 3] {
     let around = y.atan2(x);
     let (tube_x, tube_y) = (x.hypot(y) - 1.0, z);
@@ -51,6 +51,6 @@ fn tied([x, y, z]: [f32; 3]) -> [f32; 3] {
     let along_ring = 2.0 * ring * Vec3::new(-sin_2, cos_2, 0.0);
     let along_tube = 3.0 * Vec3::new(-sin_3 * cos_2, -sin_3 * sin_2, cos_3);
     let tangent = (along_ring + along_tube).normalize();
-    // In this order outside stays outside.
+    // In this order the outside stays outside.
     (on_knot + 1.5 * strand * (tube_x * normal + tube_y * normal.cross(tangent))).to_array()
 }

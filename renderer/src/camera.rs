@@ -27,8 +27,9 @@ impl Camera {
         Self { eye, target, width_px, height_px }
     }
 
-    /// Where a flight over a field of side `2 * half` around the origin stands at `time`, from 0 to 1: it enters at an edge,
-    /// sinks towards the ground while it swings to one side and the other, and rises again.
+    /// The camera on a flight over a field of side `2 * half` around the origin, at `time` from 0
+    /// to 1. It enters at an edge, sinks towards the ground while it swings to both sides, and
+    /// rises again.
     pub fn on_flight(time: f32, half: f32, size_px: [u32; 2]) -> Self {
         let swing = (std::f32::consts::TAU * time).sin();
         let height = 2.6 - 0.8 * (std::f32::consts::PI * time).sin();
@@ -58,10 +59,11 @@ impl Camera {
         -seen.z + radius >= NEAR && is_within(seen.x, tan_x) && is_within(seen.y, tan_y)
     }
 
-    /// An object of the scene in its own units, as the level is chosen for it: `radius` is its sphere's in mesh units, `scale` the
-    /// length of a mesh unit in the scene.
+    /// An object of the scene in its own units, for the choice of its level. `radius` is that of
+    /// its sphere in mesh units, `scale` the length of a mesh unit in the scene.
     pub(crate) fn view(&self, centre: Vec3, radius: f64, scale: f64, max_error_px: f64) -> View {
-        // Depth, not distance: in the corners of a picture an object is nearer to the picture's plane than to the eye.
+        // Depth, not distance: in the corners of a picture an object is nearer to the picture's
+        // plane than to the eye.
         let depth = (centre - self.eye).dot((self.target - self.eye).normalize_or(Vec3::NEG_Z));
         View {
             projection: Projection::Perspective { fov_y: FOV_Y.into(), near: f64::from(NEAR) / scale },
@@ -95,7 +97,8 @@ mod tests {
     fn errors_on_the_screen_are_those_of_the_projection() {
         let camera = Camera::new(Vec3::ZERO, Vec3::NEG_Z, [640, 360]);
         let view = camera.view(Vec3::new(3.0, -1.0, -8.0), 2.0, 0.5, 1.0);
-        // An error of 0.1 mesh units is 0.05 in the scene; the sphere of radius 1 comes as close as depth 7.
+        // An error of 0.1 mesh units is 0.05 in the scene; the sphere of radius 1 comes as close as
+        // depth 7.
         let at = |y: f32| camera.view_projection().project_point3(Vec3::new(0.0, y, -7.0)).y * 180.0;
         assert!((view.error_px(0.1) - f64::from(at(0.05) - at(0.0))).abs() < 1e-4);
     }

@@ -2,7 +2,7 @@
 
 use std::array;
 
-/// What colours mean.
+/// What the colour of an instance shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Color {
     /// Stone, a little different from instance to instance.
@@ -18,17 +18,18 @@ const STONES: [[f32; 3]; 3] = [[0.42, 0.52, 0.33], [0.16, 0.36, 0.22], [0.10, 0.
 const LEVELS: [[f32; 3]; 5] =
     [[0.90, 0.70, 0.08], [0.85, 0.28, 0.05], [0.55, 0.05, 0.16], [0.22, 0.08, 0.42], [0.04, 0.26, 0.50]];
 
-/// The linear colour of an instance at a level, given with the number of levels; `chance` is from -1 to 1.
+/// The linear colour of an instance at a level, given with the number of levels; `chance` is from
+/// -1 to 1.
 pub(crate) fn color(by: Color, [level, n_levels]: [u32; 2], chance: f32) -> [f32; 4] {
     let [r, g, b] = match by {
         Color::Stone => between(&STONES, (chance + 1.0) / 2.0),
-        // Levels are fewer than 2^24 wherever their colours can be told apart.
+        // Levels whose colours can be distinguished are fewer than 2^24.
         Color::Level => between(&LEVELS, level as f32 / (n_levels - 1).max(1) as f32),
     };
     [r, g, b, 1.0]
 }
 
-/// Where `part`, from 0 to 1, falls between the steps of a ramp.
+/// The colour at `part`, from 0 to 1, of a ramp.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the ramp")]
 fn between<const N: usize>(ramp: &[[f32; 3]; N], part: f32) -> [f32; 3] {
     let position = part.clamp(0.0, 1.0) * (N - 1) as f32;

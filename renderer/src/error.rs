@@ -22,7 +22,7 @@ pub enum RenderError {
         /// What it says.
         source: wgpu::RequestDeviceError,
     },
-    /// The device refused, for want of memory for one.
+    /// The device refused, usually for lack of memory.
     #[error("device refused {what}")]
     Refused {
         /// What it was asked for.
@@ -47,7 +47,7 @@ pub enum RenderError {
         /// What is wrong with it.
         source: OpenError,
     },
-    /// A file opens but breaks a rule; a graphics processor trusts the indices that it is given.
+    /// A file opens but breaks a rule. A graphics processor does not check indices.
     #[error("{name}")]
     Verify {
         /// The file.
@@ -117,7 +117,8 @@ impl RenderError {
     pub fn line(&self) -> String {
         let mut line = self.to_string();
         let mut cause = self.source();
-        // Libraries below put whole paragraphs into the details of a missing adapter: the first sentence says what to do.
+        // Libraries put whole paragraphs into the details of a missing adapter; the first sentence
+        // says what to do.
         while let Some(error) = cause.filter(|_| !matches!(self, Self::NoAdapter(_))) {
             let clause = error.to_string();
             if !line.contains(&clause) {

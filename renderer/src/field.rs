@@ -14,10 +14,10 @@ const SIZE_SPREAD: f32 = 0.2;
 /// How far a shadow reaches beyond its object, in its radii.
 const SHADOW_REACH: f32 = 3.0;
 
-/// How a frame is seen.
+/// How a frame is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// From where.
+    /// The camera.
     pub camera: Camera,
     /// Largest error on the screen, in pixels.
     pub max_error_px: f64,
@@ -30,7 +30,7 @@ pub struct Look {
 pub struct Field {
     instances: Vec<Instance>,
     half: f32,
-    /// Scratch of a frame: instances in the picture.
+    /// Buffer of a frame: instances in the picture.
     seen: Vec<Seen>,
 }
 
@@ -50,17 +50,18 @@ struct Seen {
     view: View,
 }
 
-/// What choosing the levels of a frame took and gave.
+/// What the choice of the levels of a frame took and gave.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Choice {
-    /// Instances whose level is another one than when they were last seen.
+    /// Instances whose level differs from the last frame in which they were seen.
     pub n_switches: usize,
-    /// For the levels of all instances in the picture and the runs of all groups.
+    /// Time to find the levels of all instances in the picture and the runs of all groups.
     pub query_time: Duration,
 }
 
 impl Field {
-    /// Scatters `n_instances` of the models, which are not none. The same numbers give the same field.
+    /// Scatters `n_instances` of the models, of which there must be at least one. The same numbers
+    /// give the same field.
     pub fn new(models: &[Model], n_instances: usize) -> Self {
         let n_columns = (1..).find(|n| n * n >= n_instances).unwrap_or(1);
         // Fields have at most a million instances: places are exact in f32.
@@ -130,7 +131,7 @@ impl Field {
         }
     }
 
-    /// Asks every picker; gives how many changed their mind.
+    /// Asks every picker; returns how many changed their level.
     fn pick_levels(&mut self, models: &[Model]) -> usize {
         let mut n_switches = 0;
         for Seen { instance, view } in &self.seen {
@@ -168,8 +169,8 @@ impl Field {
 
 /// A number from -1 to 1 that looks random.
 ///
-/// Reference: G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number generators" (OOPSLA 2014), with the
-/// constants of the finaliser published as splitmix64.
+/// Reference: G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number
+/// generators" (OOPSLA 2014), with the constants of the finaliser published as splitmix64.
 fn scatter(index: usize, salt: u64) -> f32 {
     let mut bits = (index as u64 * 8 + salt + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

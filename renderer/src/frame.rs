@@ -35,7 +35,7 @@ pub struct Draw {
     pub instances: Range<u32>,
 }
 
-/// The lists of one frame; kept from frame to frame for their memory.
+/// The lists of one frame, kept from frame to frame to reuse their memory.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     /// Instances in the picture, those of a group together.
@@ -49,8 +49,8 @@ pub struct Frame {
 impl Frame {
     /// Lists the draw calls: one for every run of every group.
     ///
-    /// This is all that a level of detail costs on the way to the screen; no triangle is looked at. Ends of ranges fit 32 bits as
-    /// the device takes no index buffer of 16 GiB.
+    /// This is the whole cost of levels of detail on the way to the screen; no triangle is read.
+    /// Ends of ranges fit in 32 bits because the device accepts no index buffer of 16 GiB.
     pub fn list_draws(&mut self, models: &[Model]) {
         self.draws.clear();
         for Group { model, level, instances } in &self.groups {
@@ -63,7 +63,7 @@ impl Frame {
         }
     }
 
-    /// Triangles that all draws draw.
+    /// Triangles in all draw calls.
     pub fn n_triangles(&self) -> u64 {
         self.draws.iter().map(|draw| draw.indices.len() as u64 / 3 * draw.instances.len() as u64).sum()
     }

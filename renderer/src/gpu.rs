@@ -12,7 +12,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// The best adapter that a Vulkan driver offers, a software one where there is no other.
+    /// The best adapter that a Vulkan driver offers; a software one if there is no other.
     ///
     /// # Errors
     ///
@@ -42,7 +42,7 @@ impl Gpu {
         &self.adapter
     }
 
-    /// Does something with the device and turns what the device refuses into an error.
+    /// Calls `act` and turns a refusal of the device into an error.
     pub(crate) fn checked<T>(&self, what: &'static str, act: impl FnOnce() -> T) -> Result<T, RenderError> {
         let filters =
             [wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Validation];

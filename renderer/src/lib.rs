@@ -1,9 +1,10 @@
-//! A renderer that draws a field of meshes, each at the level that its distance asks for.
+//! A renderer that draws a field of meshes, each at the level that its distance needs.
 //!
-//! The naive way keeps some ten meshes per object and uploads each. Here every [`Model`] is one static vertex buffer and one
-//! static index buffer, the file's own. A frame asks a `Picker` per instance for a level, puts instances with the same level
-//! together, and lists one [`Draw`] per run of that level ([`Field::choose`], [`Frame::list_draws`]). Nothing is uploaded but
-//! where instances stand, and no triangle is looked at.
+//! The naive way keeps some ten meshes per object and uploads each. Here every [`Model`] is one
+//! static vertex buffer and one static index buffer, those of the file. A frame asks a `Picker` per
+//! instance for a level, groups instances of the same level, and lists one [`Draw`] per run of that
+//! level ([`Field::choose`], [`Frame::list_draws`]). Only the positions of instances are uploaded,
+//! and no triangle is read.
 
 mod builtin;
 mod camera;

@@ -1,7 +1,7 @@
 //! The program: a flight over a field of meshes, drawn without a window.
 //!
-//! Statistics of each frame go to stderr, one JSON object to stdout if asked for. Exit status 0 is done, 1 a failure told in
-//! one line, 2 wrong usage.
+//! Statistics of each frame go to stderr, and to stdout as one JSON object if asked for. Exit
+//! status 0 means done, 1 a failure with a one-line message, 2 wrong usage.
 
 mod arguments;
 mod statistics;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Triangles of the surface that is drawn where no file is named.
+/// Triangles of the surface that is drawn if no file is named.
 const BUILTIN_TRIANGLES: u32 = 40_000;
 
 fn main() -> ExitCode {
@@ -111,7 +111,7 @@ fn numbered(path: &Path, number: u32) -> PathBuf {
     path.with_file_name(format!("{stem}-{number:03}.{extension}"))
 }
 
-/// Prints the object; a reader that has gone away is no failure.
+/// Prints the object; a reader that has closed the pipe is not a failure.
 fn print(statistics: &Statistics) -> Result<(), RenderError> {
     let mut stdout = io::stdout().lock();
     let printed = serde_json::to_string(statistics)
@@ -125,6 +125,6 @@ fn print(statistics: &Statistics) -> Result<(), RenderError> {
 
 /// Writes a line to stderr.
 fn note(line: &str) {
-    // A note that nobody can read is not worth failing for.
+    // If the note cannot be written, that is not a failure.
     let _ = writeln!(io::stderr(), "{line}");
 }

@@ -9,10 +9,10 @@ use std::path::Path;
 /// Which coordinate of a mesh points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Up {
-    /// The second, as scanners and games have it.
+    /// The second one, usual for scanners and games.
     #[default]
     Y,
-    /// The third, as engineers have it.
+    /// The third one, usual in engineering.
     Z,
 }
 
@@ -43,12 +43,13 @@ impl Model {
         Self::upload(gpu, &path.display().to_string(), lod, up)
     }
 
-    /// Verifies and uploads. `name` appears in errors. Cost: one pass over the file; 12 bytes per stored triangle and 20 per
-    /// vertex on the device.
+    /// Verifies and uploads. `name` appears in errors. Cost: one pass over the file; 12 bytes per
+    /// stored triangle and 20 per vertex on the device.
     ///
     /// # Errors
     ///
-    /// [`RenderError::Verify`], [`RenderError::NotTriangles`], [`RenderError::BufferTooLarge`], [`RenderError::Refused`].
+    /// [`RenderError::Verify`], [`RenderError::NotTriangles`], [`RenderError::BufferTooLarge`],
+    /// [`RenderError::Refused`].
     pub fn upload(gpu: &Gpu, name: &str, lod: Lod, up: Up) -> Result<Self, RenderError> {
         if lod.n_corners() != 3 {
             return Err(RenderError::NotTriangles { name: name.to_owned(), found: lod.n_corners() });
@@ -81,7 +82,7 @@ impl Model {
         self.lod.vertices().len() * (size_of::<[f32; 3]>() + size_of::<[i16; 4]>())
     }
 
-    /// The same vertices under other triangles: what a caller has that copies levels out.
+    /// The same vertices with other triangles, for a caller that copies levels out.
     ///
     /// # Errors
     ///
@@ -98,7 +99,8 @@ impl Model {
         if radius > 0.0 { radius } else { 1.0 }
     }
 
-    /// From mesh units to a mesh of radius 1 that stands upright on the origin, and the height of its centre there.
+    /// The transform from mesh units to a mesh of radius 1 that stands upright on the origin, and
+    /// the height of its centre there.
     #[expect(clippy::cast_possible_truncation, reason = "positions on the device are f32")]
     pub(crate) fn standing(&self) -> (Mat4, f32) {
         let (centre, _) = self.lod.bounding_sphere();

@@ -3,11 +3,13 @@
 use glam::Vec3;
 use nephrite::{Lod, ScalarType};
 
-/// Normals as the vertex buffer takes them, in the order of [`Lod::vertices`]: 16 bits a component, the fourth unused.
+/// Normals for the vertex buffer, in the order of [`Lod::vertices`]: 16 bits per component, the
+/// fourth unused.
 ///
-/// The file's attribute `normal` where it has one, otherwise the mean over the triangles around a vertex at the first level that
-/// has it, by area. Coarser levels keep the normals of the finest, and with them its shading. Cost: one pass over level 0 and
-/// over the triangles around vertices that are born later.
+/// They are the attribute `normal` of the file if it has one, otherwise the mean over the triangles
+/// around a vertex at the first level that has it, weighted by area. Coarser levels keep the
+/// normals of the finest level, and with them its shading. Cost: one pass over level 0 and over the
+/// triangles around vertices that are born later.
 pub(crate) fn vertex_normals(lod: &Lod) -> Vec<[i16; 4]> {
     let normals = stated(lod).unwrap_or_else(|| mean_of_triangles(lod));
     normals.into_iter().map(quantized).collect()
@@ -40,7 +42,8 @@ fn mean_of_triangles(lod: &Lod) -> Vec<Vec3> {
     sums
 }
 
-/// Adds triangles, each in proportion to its area, to those of their vertices that are born at `level`.
+/// Adds the normals of triangles, weighted by area, to those of their vertices that are born at
+/// `level`.
 fn add(lod: &Lod, indices: &[u32], level: u32, sums: &mut [Vec3]) {
     let births = lod.vertex_births();
     let position = |vertex: u32| lod.vertices().get(vertex as usize).copied().map(Vec3::from_array);
@@ -84,7 +87,8 @@ mod tests {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             ..TriangleMesh::default()
         };
-        // Two triangles that look up the third axis give way to one that looks down the second.
+        // Two triangles that face along the third axis are replaced by one that faces down the
+        // second.
         let history = History {
             simplices: vec![[0, 1, 2], [1, 3, 2], [0, 1, 4]],
             birth: vec![0, 0, 1],

@@ -35,7 +35,7 @@ impl Picture {
         Ok(())
     }
 
-    /// Alpha is one everywhere and left out.
+    /// Alpha is 1 everywhere and left out.
     fn encode(&self, stream: impl Write) -> Result<(), png::EncodingError> {
         let mut encoder = png::Encoder::new(stream, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
@@ -49,7 +49,8 @@ impl Picture {
     }
 }
 
-/// A temporary file with the permissions of an ordinary new file; temporary files are private otherwise.
+/// A temporary file with the permissions of an ordinary new file, because temporary files are
+/// private by default.
 fn create_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".nephrite-").suffix(".tmp");

@@ -1,21 +1,21 @@
-//! The three ways in which a frame puts something on the picture.
+//! The three pipelines of a frame.
 
 use crate::frame::InstanceRecord;
 use crate::{Gpu, RenderError};
 
-/// Colours are computed linear and stored as screens show them.
+/// Colours are computed linearly and stored in sRGB.
 pub(crate) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-/// Depth runs from 1 at the near plane to 0 at infinity, where floats are densest.
+/// Depth is 1 at the near plane and 0 at infinity, where floats are densest.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Samples per pixel.
 pub(crate) const N_SAMPLES: u32 = 4;
 
-/// Pipelines in the order in which they draw.
+/// Pipelines, in drawing order.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     /// Sky and ground, over the whole picture.
     pub(crate) backdrop: wgpu::RenderPipeline,
-    /// Objects flattened onto the ground; nothing is below it that could be hidden, so depth plays no part.
+    /// Objects flattened onto the ground. Nothing is below the ground, so depth plays no part.
     pub(crate) shadows: wgpu::RenderPipeline,
     /// Objects.
     pub(crate) objects: wgpu::RenderPipeline,
@@ -89,7 +89,7 @@ fn pipeline(
     })
 }
 
-/// Positions as the file has them, normals, and one record per instance.
+/// Positions as in the file, normals, and one record per instance.
 fn vertex_buffers() -> [wgpu::VertexBufferLayout<'static>; 3] {
     const POSITION: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3];
     const NORMAL: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![1 => Snorm16x4];

@@ -9,10 +9,10 @@ use glam::{Mat4, Vec3};
 /// How triangles are shaded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Shading {
-    /// Normals of the finest level, whatever the level.
+    /// Normals of the finest level, at every level.
     #[default]
     Smooth,
-    /// Each triangle by its own plane.
+    /// The plane of each triangle.
     Flat,
 }
 
@@ -28,7 +28,7 @@ struct SceneRecord {
 
 /// Direction of the sun; normalised where it is used.
 const TO_SUN: Vec3 = Vec3::new(0.55, 0.75, 0.35);
-/// Distance at which haze takes about two thirds, in units of the scene.
+/// Distance at which haze takes about two thirds of the colour, in units of the scene.
 const HAZE: f32 = 90.0;
 
 /// Draws frames of one size.
@@ -105,7 +105,7 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// One call per run; buffers are bound anew only where the model changes.
+/// One call per run; buffers are bound again only if the model changes.
 fn draw_runs(pass: &mut wgpu::RenderPass<'_>, draws: &[Draw], geometries: &[Geometry]) {
     for of_model in draws.chunk_by(|before, after| before.model == after.model) {
         let Geometry { positions, normals, indices } = &geometries[of_model[0].model];

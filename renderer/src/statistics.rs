@@ -1,4 +1,4 @@
-//! What a flight took, in numbers.
+//! Times and counts of a flight.
 
 use serde::Serialize;
 use std::fmt;
@@ -27,7 +27,7 @@ pub(crate) struct FrameStatistics {
     pub(crate) instances: usize,
     /// Different levels among them, counted by file.
     pub(crate) levels: usize,
-    /// Instances whose level is another than when they were last seen.
+    /// Instances whose level differs from the last frame in which they were seen.
     pub(crate) switches: usize,
     /// Calls that draw the objects: runs of all levels in use. Shadows take as many again.
     pub(crate) draws: usize,
@@ -35,9 +35,9 @@ pub(crate) struct FrameStatistics {
     pub(crate) triangles: u64,
     /// Triangles if every instance were drawn at the finest level.
     pub(crate) triangles_finest: u64,
-    /// For choosing all levels and listing all draws, in nanoseconds.
+    /// Time to choose all levels and list all draw calls, in nanoseconds.
     pub(crate) query_ns: u64,
-    /// For drawing, until the device is done, in milliseconds.
+    /// Time to draw, until the device is done, in milliseconds.
     pub(crate) draw_ms: f64,
 }
 

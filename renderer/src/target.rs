@@ -1,4 +1,4 @@
-//! The textures that a picture is drawn on, and the way back to memory.
+//! The textures of a picture, and the way back to memory.
 
 use crate::pipelines::{COLOR_FORMAT, DEPTH_FORMAT, N_SAMPLES};
 use crate::{Gpu, Picture, RenderError};
@@ -57,7 +57,7 @@ impl Target {
         })
     }
 
-    /// Begins a picture with nothing at infinity.
+    /// Begins an empty picture.
     pub(crate) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -97,7 +97,7 @@ impl Target {
         })?;
         let (sender, receiver) = std::sync::mpsc::sync_channel(1);
         self.read_back.map_async(wgpu::MapMode::Read, .., move |mapped| {
-            // The receiver is gone only where polling failed, which is told there.
+            // The receiver is gone only if polling failed, which is reported there.
             let _ = sender.send(mapped);
         });
         gpu.device.poll(wgpu::PollType::wait_indefinitely())?;

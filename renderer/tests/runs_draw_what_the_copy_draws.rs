@@ -1,4 +1,5 @@
-//! Promise: levels drawn as runs of the static index buffer make the pictures that copies of them make, pixel for pixel.
+//! Promise: levels drawn as runs of the static index buffer make the pictures that copies of them
+//! make, pixel for pixel.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use nephrite::TriangleMesh;

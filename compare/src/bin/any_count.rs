@@ -1,7 +1,9 @@
-//! Whether the progressive decimator reaches every triangle count of every mesh, and whether all on the way are meshes.
+//! Does the progressive decimator reach every triangle count of every mesh, and is every mesh on
+//! the way valid?
 //!
-//! Each mesh is decimated to nothing and its history gone through step by step; then its operation stream is read and asked for
-//! triangle counts from the input's to none, all of them for meshes up to a limit and spread evenly above.
+//! Each mesh is decimated to nothing and its history checked step by step. Then its operation
+//! stream is read and played to triangle counts from the input's to 0: all of them for meshes up to
+//! a limit, evenly spread ones above it.
 
 use clap::Parser;
 use nephrite::progressive_mesh::{ProgressiveMesh, encode};
@@ -63,7 +65,7 @@ fn list(path: &Path, paths: &mut Vec<PathBuf>) {
     inside.iter().for_each(|path| list(path, paths));
 }
 
-/// What there is to say of a mesh; nothing of a file that has none.
+/// The result for a mesh; `None` for a file without one.
 fn check(path: &Path, arguments: &Arguments) -> Result<Option<String>, Vec<String>> {
     let Ok(mesh) = load(path) else { return Ok(None) };
     let Ok(build) = decimate_progressively(&mesh, 1.0, arguments.pre_split) else { return Ok(None) };

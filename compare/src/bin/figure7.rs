@@ -1,7 +1,9 @@
-//! The table of the progressive decimator's paper (W. J. Schroeder, 1997, figure 7) with parts like its own.
+//! The table of the progressive decimator's paper (W. J. Schroeder, 1997, figure 7) with similar
+//! parts.
 //!
-//! The shell, the plate and the heat exchanger are generated with the paper's numbers of triangles, or next to them; the paper's meshes
-//! were never published. Of the plates the last meshes before nothing are told as well.
+//! The shell, the plate and the heat exchanger are generated with the paper's numbers of triangles,
+//! or close to them; the paper's meshes were never published. For the plates, the last meshes
+//! before nothing are listed too.
 
 use clap::Parser;
 use nephrite::decimate::progressive::Passage;
@@ -18,7 +20,7 @@ struct Arguments {}
 
 const REDUCTIONS: [f64; 4] = [0.5, 0.75, 0.9, 1.0];
 
-/// A part, and what the paper has for it.
+/// A part, and the figures of the paper.
 struct Part {
     name: &'static str,
     mesh: TriangleMesh,
@@ -104,7 +106,8 @@ fn print_part(part: &Part) -> Result<(), CompareError> {
     Ok(())
 }
 
-/// How many triangles of which face are left of pre-split plates just before nothing is.
+/// Prints how many triangles of which face are left of pre-split plates just before nothing is
+/// left.
 fn print_last_stages() -> Result<(), CompareError> {
     for (name, drilling, paper) in
         [("plate with seven holes", Drilling::PLATE, 4), ("plate with one hole", Drilling::WASHER, 4)]

@@ -1,8 +1,10 @@
 //! Levels and memory beside meshoptimizer's chain of halvings.
 //!
-//! An engine that keeps a chain stores one index list per level and draws, for a budget of triangles, the finest level that
-//! fits. What the budget loses on average, for budgets spread evenly on a logarithmic scale from the chain's end to the
-//! input, is the price of few levels; the bytes of all index lists are the price of many. Both share one vertex buffer.
+//! An engine that keeps a chain stores one index list per level and draws, for a budget of
+//! triangles, the finest level that fits. The unused part of the budget is the price of few levels,
+//! averaged over budgets that are evenly spread on a logarithmic scale from the end of the chain to
+//! the input. The bytes of all index lists are the price of many levels. Both share one vertex
+//! buffer.
 
 use clap::Parser;
 use nephrite::store::{Provenance, StoreOptions, write_to};
@@ -22,13 +24,13 @@ struct Arguments {
     meshes: Vec<PathBuf>,
 }
 
-/// Budgets of which the mean loss is taken.
+/// Number of budgets over which the loss is averaged.
 const N_BUDGETS: u32 = 4096;
 
 /// Levels per window; `None` for whole lifetimes.
 const WINDOWS: [Option<u32>; 3] = [None, Some(16), Some(8)];
 
-/// Cuts whose vertex transforms are counted, as parts of the input's triangles.
+/// Cuts whose vertex transforms are counted, as parts of the triangles of the input.
 const PARTS: [f64; 3] = [0.5, 0.1, 0.01];
 
 /// Vertices that the cache holds.
@@ -103,7 +105,7 @@ fn run(arguments: &Arguments) -> Result<(), CompareError> {
     Ok(())
 }
 
-/// The part of a budget that is not used, on average; `counts` are the triangles of the levels, finest first.
+/// Average unused part of a budget; `counts` are the triangles of the levels, finest first.
 fn mean_loss(counts: &[usize]) -> f64 {
     let [finest, coarsest] =
         [counts.first(), Some(&CHAIN_END)].map(|n| n.copied().unwrap_or(1).max(1) as f64);

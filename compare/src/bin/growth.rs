@@ -1,8 +1,9 @@
-//! Does finding a cut get slower as histories grow? Synthetic lifetimes from ten thousand to a hundred million.
+//! Does finding a cut get slower as histories grow? Synthetic lifetimes, from ten thousand to a
+//! hundred million.
 //!
-//! Each query is timed by itself, clock included, as a renderer would ask it: an error drawn at random, the level it
-//! means by binary search in the error table, and the level's runs read once. A hundred million lifetimes take some
-//! 1.5 GB of memory and half a minute.
+//! Each query is timed by itself, clock included, as a renderer asks it: a random error, its level
+//! by binary search in the error table, and the runs of that level read once. A hundred million
+//! lifetimes take some 1.5 GB of memory and half a minute.
 
 use clap::Parser;
 use nephrite::tree::{Layout, Tree, TreeError};
@@ -25,7 +26,8 @@ struct Arguments {
     queries: u32,
 }
 
-/// Lifetimes per level: a decimator that records every step has some 6, a file of usual levels thousands.
+/// Lifetimes per level: a decimator that records every step has some 6, a file with the usual
+/// levels thousands.
 const LIFETIMES_PER_LEVEL: u32 = 100;
 
 fn main() -> ExitCode {

@@ -1,8 +1,9 @@
 //! Extraction beside general interval trees over the same lifetimes.
 //!
-//! Every rival gets the triangles themselves as payload, so that none has to gather them through ids, and writes into a
-//! buffer that is large enough. The lifetimes are read off the levels of the file one by one. coitrees and superintervals
-//! have AVX2 code only when it is compiled in: `RUSTFLAGS="-C target-cpu=native"`.
+//! Every rival stores the triangles themselves, so that none has to gather them through ids, and
+//! writes into a buffer that is large enough. The lifetimes are read from the levels of the file
+//! one by one. coitrees and superintervals have AVX2 code only if it is compiled in: `RUSTFLAGS="-C
+//! target-cpu=native"`.
 
 use clap::Parser;
 use coitrees::{COITree, GenericInterval, IntervalTree};
@@ -74,7 +75,8 @@ fn run(arguments: &Arguments) -> Result<(), CompareError> {
     Ok(())
 }
 
-/// The lifetimes that the levels show: a triangle is born where the level before has none like it.
+/// The lifetimes that the levels show: a triangle is born at a level if the level before does not
+/// have it.
 fn lifetimes(lod: &Lod) -> Result<Vec<Lived>, CompareError> {
     let mut gone = vec![];
     let mut alive: Vec<Lived> = vec![];
@@ -106,7 +108,7 @@ fn extract(cut: Cut<'_>) -> Result<Vec<Triangle>, CompareError> {
 /// Puts the triangles alive at a level into a buffer, in any order.
 type Ask = fn(&Rivals, u32, &mut Vec<Triangle>);
 
-/// The same lifetimes, indexed by others. All take levels as 32-bit numbers.
+/// The same lifetimes, indexed by other crates. All take levels as 32-bit numbers.
 struct Rivals {
     coitree: COITree<Triangle, u32>,
     superintervals: IntervalMap<Triangle>,
@@ -156,7 +158,7 @@ impl Rivals {
         found.extend(alive.map(|life| life.triangle));
     }
 
-    /// All of them find what the cut of this level holds.
+    /// Checks that all of them find what the cut of this level holds.
     fn check(&self, level: u32, expected: &[Triangle]) -> Result<(), CompareError> {
         let asks: [(&str, Ask); 4] = [
             ("coitrees", Self::ask_coitree),

@@ -1,9 +1,10 @@
 //! Is the stated error of a level ever exceeded, and how close is it?
 //!
-//! Each mesh is simplified to the end, and levels spread over its range are measured against the input. A level is a
-//! violation when its proven *lower* bound is above the stated error; then the program ends with status 1. With
-//! `--write` the levels also become PLY files beside a `levels.json` that says what they state, so that other programs
-//! can measure them: `metro_check.py` does it with PyMeshLab's Metro.
+//! Each mesh is simplified to the end, and levels spread over its range are measured against the
+//! input. A level is a violation if its proven *lower* bound is above the stated error; then the
+//! program ends with status 1. With `--write` the levels are also written as PLY files beside a
+//! `levels.json` with their stated errors, so that other programs can measure them:
+//! `metro_check.py` does it with PyMeshLab's Metro.
 
 use clap::Parser;
 use nephrite::decimate::jade::{JadeOptions, Placement};
@@ -39,7 +40,7 @@ struct Arguments {
     write: Option<PathBuf>,
 }
 
-/// A level that states less than this part of the diagonal counts as exact: it has no ratio.
+/// A level that states less than this part of the diagonal counts as exact and has no ratio.
 const EXACT: f64 = 1e-6;
 
 /// One level, measured. Lengths are in mesh units.
@@ -59,7 +60,7 @@ impl Checked {
         self.lower_bound > self.stated
     }
 
-    /// What was measured as a part of what is stated; `None` for an exact level.
+    /// The measured part of the stated error; `None` for an exact level.
     fn ratio(&self) -> Option<f64> {
         (self.stated > EXACT * self.bounding_diagonal).then(|| self.max / self.stated)
     }

@@ -1,7 +1,8 @@
-//! Thousands of parts for a LOD database: plates, shells and heat exchangers of 1,000 to 10,000 triangles, no two alike.
+//! Thousands of parts for a database: plates, shells and heat exchangers of 1,000 to 10,000
+//! triangles, no two alike.
 //!
-//! With ten thousand of them, `nephrite build FOLDER --output-dir DB --method progressive` is the paper's wish (W. J. Schroeder, 1997,
-//! section 2: 10,000 parts, 100 million triangles a day).
+//! With ten thousand of them, `nephrite build FOLDER --output-dir DB --method progressive` is the
+//! task of the paper (W. J. Schroeder, 1997, section 2: 10,000 parts, 100 million triangles a day).
 
 use clap::Parser;
 use nephrite::TriangleMesh;
@@ -40,7 +41,8 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Parts of sizes that fill the range evenly, whatever their number: multiples of the golden section do.
+/// Parts whose sizes fill the range evenly, whatever their number, because they follow multiples of
+/// the golden section.
 fn part(index: u32) -> (&'static str, TriangleMesh) {
     let share = (f64::from(index) * 0.618_033_988_749_895).fract();
     let wished = 1600.0 + 8300.0 * share;

@@ -1,7 +1,9 @@
-//! Progressive decimation in the rows of its paper's figure 7, the operation stream, and vtkDecimatePro's time.
+//! Progressive decimation in the rows of figure 7 of its paper, the operation stream, and the time
+//! of vtkDecimatePro.
 //!
-//! vtkDecimatePro is the toolkit in which the paper's author implemented it. It is called through Python (`pip install vtk`) in turn with
-//! ours, and only the time of its `Update` counts; ours counts repair, decimation and the record of the whole history.
+//! vtkDecimatePro is the implementation by the author of the paper. It is called through Python
+//! (`pip install vtk`), in turn with ours. Of VTK only the time of `Update` counts; ours includes
+//! repair, decimation and the record of the whole history.
 
 use clap::Parser;
 use nephrite::decimate::progressive::Passage;
@@ -36,7 +38,7 @@ struct Arguments {
 
 /// The reductions of the paper's table.
 const REDUCTIONS: [f64; 4] = [0.5, 0.75, 0.9, 1.0];
-/// Reads a mesh, decimates it and prints the seconds that took.
+/// Reads a mesh, decimates it and prints the seconds that this took.
 const VTK: &str = "
 import sys, time, vtk
 reader = vtk.vtkPLYReader(); reader.SetFileName(sys.argv[1]); reader.Update()
@@ -45,7 +47,7 @@ decimate.SetTargetReduction(float(sys.argv[2])); decimate.BoundaryVertexDeletion
 start = time.perf_counter(); decimate.Update(); print(time.perf_counter() - start)
 ";
 
-/// Reads a mesh and prints what Draco makes of it from its usual quantisation to the finest.
+/// Reads a mesh and prints the sizes that Draco gives, from its usual quantisation to the finest.
 const DRACO: &str = "
 import sys, vtk, DracoPy
 from vtk.util.numpy_support import vtk_to_numpy
@@ -99,8 +101,9 @@ fn compare(path: &Path, arguments: &Arguments) -> Result<(), Box<dyn std::error:
     print_codecs(&mesh, path, arguments.python.as_deref())
 }
 
-/// What other codecs make of the same triangles and positions, in bits per vertex. meshoptimizer's keep every bit, in the order that
-/// suits them best. Draco's quantise the positions, and give one level; it is called through Python (`pip install DracoPy`).
+/// Sizes that other codecs give for the same triangles and positions, in bits per vertex.
+/// meshoptimizer's codecs keep every bit, in the order that suits them best. Draco quantises the
+/// positions and gives one level; it is called through Python (`pip install DracoPy`).
 fn print_codecs(
     mesh: &TriangleMesh,
     path: &Path,
@@ -137,7 +140,7 @@ fn vtk_seconds(python: &Path, mesh: &Path, reduction: f64) -> Result<f64, Box<dy
     Ok(String::from_utf8_lossy(&output.stdout).trim().parse()?)
 }
 
-/// What the operations weigh, and how fast they play.
+/// Prints the size of the operations and how fast they play.
 fn print_stream(build: &Build, repeats: usize) -> Result<(), StreamError> {
     let encoded = encode(build)?;
     let n_vertices = encoded.n_vertices as f64;

@@ -1,9 +1,10 @@
-//! The whole certified history beside a chain of halvings by meshoptimizer, and the memory both take.
+//! The whole certified history beside a chain of halvings by meshoptimizer, and the memory of both.
 //!
-//! The chain simplifies to half the triangles, then the result to half of its triangles, down to 64: what an engine does to
-//! get its levels. Both run in this process, in turn, and medians are compared; meshoptimizer uses one thread. Memory is
-//! measured in a process for each: the most that was resident at a time, less what was resident when the process began
-//! and less the mesh. Linux only for the memory.
+//! The chain simplifies to half the triangles, then the result to half of its triangles, down to
+//! 64: what an engine does to get its levels. Both run in this process, in turn, and medians are
+//! compared; meshoptimizer uses one thread. Memory is measured in a separate process for each: the
+//! peak of the resident memory, less what was resident when the process began and less the mesh.
+//! Memory is measured on Linux only.
 
 use clap::{Parser, ValueEnum};
 use nephrite::{BuildError, BuildOptions, TriangleMesh, build_from};
@@ -108,13 +109,14 @@ fn pool(n_threads: usize) -> Result<ThreadPool, CompareError> {
     Ok(ThreadPoolBuilder::new().num_threads(n_threads).build()?)
 }
 
-/// All levels with a proven error; gives their number.
+/// All levels with a proven error; returns their number.
 fn history(mesh: &TriangleMesh) -> Result<usize, BuildError> {
     let build = nephrite::build(mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?;
     Ok(build.history.errors.len())
 }
 
-/// What simplifying a mesh takes beside the mesh, in bytes; `None` where the system does not tell.
+/// Memory of simplifying a mesh beside the mesh itself, in bytes; `None` if the system does not
+/// tell.
 fn memory_in_own_process(system: System, path: &Path) -> Result<Option<f64>, CompareError> {
     let name = match system {
         System::Nephrite => "nephrite",
@@ -133,7 +135,8 @@ fn print_memory(system: System, path: &Path) -> Result<(), CompareError> {
     let Some(at_start) = resident_bytes("VmRSS:") else { return Ok(()) };
     let mesh = load(path)?;
     let mesh_bytes = size_of_val(&mesh.positions[..]) + size_of_val(&mesh.triangles[..]);
-    // The peak so far is that of the reader: this sets it back to what is resident now (proc_pid_clear_refs(5)).
+    // So far the peak is that of the reader; this resets it to what is resident now
+    // (proc_pid_clear_refs(5)).
     std::fs::write("/proc/self/clear_refs", "5")?;
     match system {
         System::Nephrite => {

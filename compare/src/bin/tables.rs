@@ -1,8 +1,10 @@
-//! Triangles at a given error, and error at a given triangle count, beside the figures of other systems.
+//! Triangles at a given error, and error at a given triangle count, beside the figures of other
+//! systems.
 //!
-//! Bunny, fandisk and the cosine surface are simplified to the end, under the proven bound with vertices that stay and with vertices
-//! that move, and under the paper's joint estimate, with every step kept as a level. Each row takes one level out and measures it against the
-//! input. Prints Markdown.
+//! Bunny, fandisk and the cosine surface are simplified to the end in three ways: under the
+//! certified bound with fixed and with moving vertices, and under the paper's joint estimate. Every
+//! step is kept as a level. Each row extracts one level and measures it against the input. Prints
+//! Markdown.
 
 use clap::Parser;
 use nephrite::decimate::jade::{JadeOptions, Placement};

@@ -1,9 +1,11 @@
-//! Is every step of a fusion a whole volume? And what does a fusion of a tetrahedron take away, beside the paper's table 1?
+//! Is every step of a fusion a valid volume? And how many tetrahedra does the fusion of one remove,
+//! beside table 1 of the paper?
 //!
-//! Each volume is built in memory and its history gone through step by step, so that every level that a file could keep is
-//! checked: no tetrahedron that ever lived is inverted, the volume stays within 0.1 %, no face has three tetrahedra, and the
-//! boundary keeps its Euler characteristic, its components and its edges of two faces. A second build fuses whole tetrahedra as
-//! far as they go, as the paper does.
+//! Each volume is built in memory and its history checked step by step, so that every level that a
+//! file could keep is checked: no tetrahedron that ever lived is inverted, the volume stays within
+//! 0.1 %, no face has three tetrahedra, and the boundary keeps its Euler characteristic, its
+//! components and its edges of two faces. A second build fuses whole tetrahedra as far as possible,
+//! like the paper.
 
 use clap::Parser;
 use nephrite::decimate::fusion::FusionOptions;
@@ -76,19 +78,20 @@ fn run(arguments: &Arguments) -> Result<bool, CompareError> {
     Ok(is_whole)
 }
 
-/// What was seen on the way.
+/// What was counted on the way.
 struct Walked {
     end: BoundaryWalk,
     n_steps: usize,
-    /// Largest part of the volume that was missing or too much.
+    /// Largest part of the volume that was lost or gained.
     volume_off: f64,
     most_crowded: i64,
-    /// Least and largest of all steps.
+    /// Smallest and largest of all steps.
     characteristic: [i64; 2],
     open_edges: [i64; 2],
     /// At the first step and at the last.
     components: [usize; 2],
-    /// Fusions of tetrahedra inside the mesh, the tetrahedra they took away, and the fewest that one did.
+    /// Fusions of tetrahedra inside the mesh, the tetrahedra that they removed, and the fewest that
+    /// one removed.
     n_inner: usize,
     n_inner_taken: usize,
     least_inner: usize,
