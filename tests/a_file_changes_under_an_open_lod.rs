@@ -1,6 +1,7 @@
-//! Promise: what happens to the file of an open `Lod` has the outcome that is documented, and no other: one that was read does
-//! not notice; a mapped one keeps a file that is replaced or deleted, ends with SIGBUS when it is truncated, and gives
-//! answers in range when it is written over. The reader is a process of its own.
+//! Promise: a change to the file of an open `Lod` has the documented outcome and no other. A `Lod`
+//! that was read does not notice. A mapped `Lod` keeps a file that is replaced or deleted, ends
+//! with SIGBUS if it is truncated, and gives answers in range if it is overwritten. The reader is a
+//! separate process.
 #![expect(unsafe_code, reason = "files are mapped here, and breaking the contract is the point")]
 #![cfg(unix)]
 #![allow(
@@ -22,7 +23,7 @@ use support::synthetic::{decimate, grid};
 
 const SIGBUS: i32 = 7;
 
-/// Several hundred kilobytes, so that most pages are not looked at when it is opened.
+/// Several hundred kilobytes, so that most pages are not read when the file is opened.
 fn bytes() -> Vec<u8> {
     let mesh = grid(60);
     support::file_bytes(&mesh, &decimate(&mesh, usize::MAX, 3), None)
@@ -35,7 +36,8 @@ fn reader() {
     let (path, way) = (std::env::var("NEPHRITE_FILE").unwrap(), std::env::var("NEPHRITE_WAY").unwrap());
     let lod = match way.as_str() {
         "open" => Lod::open(&path).unwrap(),
-        // SAFETY: broken on purpose, in a process that may end by it; the parent looks for what then happens.
+        // SAFETY: broken on purpose, in a process that may end by it; the parent checks what
+        // happens.
         _ => unsafe { Lod::map(&path) }.unwrap(),
     };
     println!("\nopened");
@@ -51,7 +53,7 @@ fn reader() {
     println!("\n{}", if lod.verify().is_ok() { "same" } else { "damaged" });
 }
 
-/// What a reader says and how it ends when `change` is done to its file.
+/// What a reader prints and how it ends when `change` is applied to its file.
 fn outcome(way: &str, change: impl FnOnce(&Path)) -> (String, ExitStatus) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("file.neph");

@@ -1,6 +1,7 @@
-//! At every level the measured two-sided distance to the input is at most the certified error, on smooth, sharp, open,
-//! one-sided, non-manifold and self-intersecting input. The distance is measured here by brute force: every triangle of
-//! one surface is sampled and held against every triangle of the other.
+//! Promise: at every level the measured two-sided distance to the input is at most the certified
+//! error, on smooth, sharp, open, one-sided, non-manifold and self-intersecting input. The distance
+//! is measured by brute force: samples of every triangle of one surface are compared with every
+//! triangle of the other.
 
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "tests on small meshes")]
 
@@ -10,7 +11,8 @@ use engine::{alive_at, build_all, corners_of, one_sided, spread_steps};
 use nephrite::decimate::jade::{JadeOptions, Placement};
 use nephrite::{Bound, BuildOptions, Method, TriangleMesh, bounding_diagonal, generate};
 
-/// Checks `n_levels` levels; returns the measured part of the stated error at each where it is not zero.
+/// Checks `n_levels` levels; returns the ratio of measured to stated error of each level whose
+/// error is not 0.
 fn check(name: &str, mesh: &TriangleMesh, n_levels: u32) -> Vec<f64> {
     check_with(name, mesh, n_levels, &BuildOptions::default())
 }
@@ -103,7 +105,8 @@ fn vertices_that_move() {
     assert!(median >= 0.7, "a bound that is far too high: median {median}");
 }
 
-/// A folded patch of 24 triangles. Under a limit of 0.8 a vertex of it is placed otherwise than without a limit.
+/// A folded patch of 24 triangles. Under a limit of 0.8 a vertex of it is placed otherwise than
+/// without a limit.
 fn folded_patch() -> TriangleMesh {
     const QUARTERS: [[f32; 4]; 5] = [
         [1.0, -3.0, -1.0, -3.0],
@@ -170,7 +173,8 @@ fn what_the_repair_drops_counts_at_every_level() {
         let beyond = BuildOptions { max_error: Some(1.0), ..options };
         assert!(build_all(&mesh, &beyond).history.errors.iter().all(|&error| error == first));
     }
-    // A segment along an edge, a point at a corner and a repeated triangle drop nothing that is not there still.
+    // A segment along an edge, a point at a corner and a repeated triangle drop nothing that is not
+    // there still.
     let mut harmless = generate::cosine(12);
     let [a, b, _] = harmless.triangles[7];
     harmless.triangles.extend([[a, b, a], [b, b, b], harmless.triangles[9]]);

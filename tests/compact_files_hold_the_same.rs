@@ -1,5 +1,5 @@
-//! Promise: a file in the compact form answers every question like the one in the plain form, in fewer bytes; and damage to
-//! it is refused or harmless.
+//! Promise: a file in the compact form gives the same answers as one in the plain form, in fewer
+//! bytes. Damage to it is refused or harmless.
 
 #![allow(clippy::cast_possible_truncation, reason = "small files")]
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use support::damage::{Outcome, Seal, open_and_use};
 use support::synthetic::{decimate, grid};
 
-/// A grid's file in the plain form and in the compact one.
+/// The file of a grid in the plain form and in the compact one.
 fn both_forms(side: usize, n_removals: usize, window_levels: Option<u32>) -> [Vec<u8>; 2] {
     let mesh = grid(side);
     let history = decimate(&mesh, n_removals, 3);
@@ -30,7 +30,7 @@ fn small_file() -> Vec<u8> {
 
 #[test]
 fn slots_and_levels_are_the_same() {
-    // The largest grid has more vertices than 16 bits count.
+    // The largest grid has more vertices than 16 bits can number.
     for (side, n_removals, window_levels) in [
         (2, 0, None),
         (20, usize::MAX, None),
@@ -72,7 +72,8 @@ fn every_truncation_is_refused_and_every_flipped_bit_is_harmless() {
     });
 }
 
-/// A copy of the small file with other bytes at the beginning of a section, sealed again, and what verifying it says.
+/// The error of verifying a copy of the small file with other bytes at the beginning of a section
+/// and correct checksums.
 fn fault(kind: SectionKind, edit: impl FnOnce(&mut [u8])) -> CompactFault {
     let mut bytes = small_file();
     let seal = Seal::of(&bytes);
@@ -89,7 +90,7 @@ fn fault(kind: SectionKind, edit: impl FnOnce(&mut [u8])) -> CompactFault {
 fn every_rule_of_the_slots_has_its_error() {
     let is_repeats =
         |fault| matches!(fault, CompactFault::Repeats { found, expected } if found == expected + 1);
-    // The first slot repeats none.
+    // The first slot cannot be a repeat.
     assert!(is_repeats(fault(SectionKind::RepeatBits, |bits| bits[0] |= 1)));
     let n_slots = Seal::of(&small_file()).header().n_slots;
     let moved = fault(SectionKind::RepeatBits, |bits| {
@@ -102,7 +103,7 @@ fn every_rule_of_the_slots_has_its_error() {
     assert!(matches!(source, CompactFault::Source { found: 0xffff_ffff, .. }));
 }
 
-/// What a file of the form is refused for when its directory is changed and sealed again.
+/// The error of opening a file of the form with a changed directory and correct checksums.
 fn refusal(bytes: Vec<u8>, edit: impl FnOnce(&mut [SectionRecord])) -> NephError {
     let mut bytes = bytes;
     let seal = Seal::of(&bytes);

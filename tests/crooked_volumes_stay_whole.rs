@@ -1,6 +1,7 @@
-//! Promise: volumes as nobody would make them keep what is promised of every volume: with tetrahedra missing, turned inside out, twice, or
-//! added anywhere, with vertices out of place, flat, tiny, huge or far away. No fusion inverts or flattens anything or loses volume, and no
-//! level strays farther from the boundary than it states; proven anew from the files.
+//! Promise: volumes with tetrahedra missing, inverted, doubled or added anywhere, with vertices out
+//! of place, flat, tiny, huge or far away, keep the promises of every volume. No fusion inverts or
+//! flattens a tetrahedron or loses volume, and no level is farther from the boundary than it
+//! states. Proven from the files, without the builder.
 
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
@@ -16,7 +17,7 @@ use std::ops::ControlFlow::Continue;
 use support::served::served;
 use support::synthetic::Random;
 
-/// A box or a ball, as crooked as the numbers say.
+/// A box or a ball, with the defects that the random numbers choose.
 fn volume(random: &mut Random) -> TetrahedronMesh {
     let mut mesh = match random.below(3) {
         0 => ball_volume(2 + random.below(5) as u32),
@@ -53,7 +54,7 @@ fn volume(random: &mut Random) -> TetrahedronMesh {
     mesh
 }
 
-/// The positions of the corners of the tetrahedra that have no volume or a negative one.
+/// Positions of the corners of tetrahedra whose volume is not positive.
 fn not_positive(mesh: &TetrahedronMesh) -> BTreeSet<[[u32; 3]; 4]> {
     let bad = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) <= 0.0);
     let positions = |t: &[u32; 4]| t.map(|v| mesh.positions[v as usize].map(f32::to_bits));
@@ -64,7 +65,7 @@ fn not_positive(mesh: &TetrahedronMesh) -> BTreeSet<[[u32; 3]; 4]> {
     bad.map(positions).map(sorted).collect()
 }
 
-/// How many levels there are: none where no tetrahedron is left.
+/// Number of levels; 0 if no tetrahedron is left.
 fn check(name: &str, mesh: &TetrahedronMesh, options: &VolumeOptions) -> u32 {
     let build = match build_volume(mesh, options, &|_| Continue(())) {
         Err(BuildError::NoTetrahedra { .. }) => return 0,
@@ -74,7 +75,7 @@ fn check(name: &str, mesh: &TetrahedronMesh, options: &VolumeOptions) -> u32 {
     let lod = served(&build.mesh, &build.history, &provenance);
     let table = ErrorTable::new(&lod).unwrap();
     let first = lod.at_level(0).to_volume().unwrap();
-    // Repair rights what it can; the rest is as it came.
+    // Repair rights what it can; the rest stays as it was.
     let bad_at_first = not_positive(&first);
     let last = lod.n_levels() - 1;
     for level in (0..=4).map(|i| last * i / 4) {

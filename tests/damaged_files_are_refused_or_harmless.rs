@@ -86,7 +86,8 @@ fn every_edit_of_a_byte_under_renewed_checksums_is_harmless() {
                 edited.copy_from_slice(&bytes);
                 edited[place] ^= change;
                 seal.renew(&mut edited);
-                // Coordinates, names, attribute values and the like are free, all else must be found.
+                // Coordinates, names, attribute values and similar bytes are free; a change
+                // anywhere else must be found.
                 n_valid += usize::from(is_valid(&open_and_use(&edited)));
             }
             n_valid
@@ -114,7 +115,7 @@ fn every_two_bits_flipped_in_the_header_are_refused() {
     });
 }
 
-/// What a number may be that somebody forgot to think of.
+/// Values of a number that are easy to forget.
 fn boundary_values(valid: u64, size_bytes: usize) -> Vec<u64> {
     let mut values: Vec<u64> = [7, 8, 15, 16, 23, 31, 32, 52, 62, 63]
         .into_iter()
@@ -134,8 +135,8 @@ fn boundary_values(valid: u64, size_bytes: usize) -> Vec<u64> {
     values
 }
 
-/// Header, directory, attribute table and every section are taken as numbers of 2, 4 and 8 bytes, whatever their fields are:
-/// each number at each boundary value, alone.
+/// Header, directory, attribute table and every section are taken as numbers of 2, 4 and 8 bytes,
+/// whatever their fields are. Each number is set to each boundary value, one at a time.
 #[test]
 fn every_field_at_its_boundary_values_is_refused_or_harmless() {
     let mesh = grid(4);
@@ -155,7 +156,8 @@ fn every_field_at_its_boundary_values_is_refused_or_harmless() {
                 for value in boundary_values(u64::from_le_bytes(valid), size_bytes) {
                     edited.copy_from_slice(&bytes);
                     edited[range.clone()].copy_from_slice(&value.to_le_bytes()[..size_bytes]);
-                    // A number of sections that leaves the file cannot be sealed; as it is, it is refused.
+                    // A number of sections that exceeds the file cannot be sealed; the file is
+                    // refused as it is.
                     let n_sections: [u8; 4] = edited[12..16].try_into().unwrap();
                     if u32::from_le_bytes(n_sections) < 100 {
                         seal.renew(&mut edited);
@@ -167,7 +169,8 @@ fn every_field_at_its_boundary_values_is_refused_or_harmless() {
     }
 }
 
-/// Whole sections are replaced by bytes of one kind, or by another section's, under right checksums.
+/// Whole sections are filled with one byte, or with the bytes of another section, under correct
+/// checksums.
 #[test]
 fn every_section_filled_with_anything_is_refused_or_harmless() {
     let bytes = small_file();

@@ -1,5 +1,5 @@
-//! Promise: whatever leaves and enters between two levels turns one cut into the other, forward and back, and takes time
-//! in proportion to the change.
+//! Promise: the triangles that leave and enter between two levels turn one cut into the other,
+//! forwards and backwards, in time proportional to the change.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod support;
@@ -10,7 +10,8 @@ use nephrite::tree::{Difference, Run};
 use std::collections::HashMap;
 use support::synthetic::{Random, decimate, grid};
 
-/// Which triangles are alive, by their vertex indices; each has a random number, whose sum stands for the set.
+/// The set of triangles that are alive, by their vertex indices. Each has a random number, and the
+/// sum of these numbers stands for the set.
 struct Followed<'a> {
     lod: &'a Lod,
     ids: HashMap<[u32; 3], usize>,
@@ -42,7 +43,7 @@ impl<'a> Followed<'a> {
         alive.iter().fold(0, |sum, &id| sum.wrapping_add(self.keys[id]))
     }
 
-    /// Takes triangles out or in, each of which must have been the opposite.
+    /// Removes or adds triangles; each must have been in the opposite state.
     fn change(&mut self, runs: Difference, enters: bool) -> usize {
         let changed = self.triangles(runs);
         for &id in &changed {
@@ -55,7 +56,7 @@ impl<'a> Followed<'a> {
     }
 }
 
-/// Goes from level to level along `levels` and compares with the direct cut everywhere.
+/// Goes from level to level along `levels` and compares with the direct cut each time.
 fn follow(lod: &Lod, levels: impl Iterator<Item = u32>) {
     let mut followed = Followed::new(lod);
     let direct: Vec<u64> = (0..lod.n_levels()).map(|level| followed.sum_of(level)).collect();

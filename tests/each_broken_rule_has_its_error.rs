@@ -1,4 +1,4 @@
-//! Promise: every rule of the head has an error of its own, which names what was found.
+//! Promise: every rule of the head has its own error, which names what was found.
 
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small files")]
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -25,7 +25,7 @@ fn refusal(bytes: &[u8]) -> NephError {
     }
 }
 
-/// What a file with a changed header, sealed again, is refused for.
+/// The error of opening a file with a changed header and correct checksums.
 fn with_header(edit: impl FnOnce(&mut Header)) -> NephError {
     let mut bytes = valid_file();
     let seal = Seal::of(&bytes);
@@ -34,7 +34,7 @@ fn with_header(edit: impl FnOnce(&mut Header)) -> NephError {
     refusal(&bytes)
 }
 
-/// A file with a changed directory, sealed again.
+/// A file with a changed directory and correct checksums.
 fn with_records(edit: impl FnOnce(&mut [SectionRecord])) -> Vec<u8> {
     let mut bytes = valid_file();
     let seal = Seal::of(&bytes);
@@ -160,7 +160,7 @@ fn of_the_attribute_table() {
     assert_eq!(refused(|t| t[1].name_bytes = 800), NephError::AttributeName { index: 1 });
     let names = NephError::SectionBytes { kind: SectionKind::AttributeNames, found: 12, expected: 11 };
     assert_eq!(refused(|t| t[1].name_bytes = 6), names);
-    // Without its table the names and values belong to nobody.
+    // Without the table, names and values belong to no attribute.
     let orphaned = with_records(|r| record(r, SectionKind::AttributeTable).kind = 99);
     let orphaned_names =
         NephError::SectionBytes { kind: SectionKind::AttributeNames, found: 12, expected: 0 };
@@ -213,7 +213,7 @@ fn of_the_births_of_vertices() {
     let found = first_old as u32;
     assert!(matches!(verdict(first_old, 1), VerifyError::UnbornVertex { found: f, .. } if f == found));
 
-    // The section has an entry for every vertex or is not there.
+    // The section has an entry for every vertex, or the file does not have it.
     let bytes = with_records(|records| {
         record(records, SectionKind::AttributeValues).kind = SectionKind::VertexBirths.code();
     });
@@ -221,7 +221,8 @@ fn of_the_births_of_vertices() {
     assert!(wrong(refusal(&bytes)));
 }
 
-/// What verification says about a file in which one number of a section is changed, sealed again.
+/// The error of verifying a file in which one number of a section is changed, with correct
+/// checksums.
 fn verdict<T: bytemuck::Pod>(kind: SectionKind, edit: impl FnOnce(&mut [T])) -> VerifyError {
     let mut bytes = valid_file();
     let seal = Seal::of(&bytes);

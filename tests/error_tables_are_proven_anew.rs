@@ -1,5 +1,5 @@
-//! `ErrorTable` proves the certified errors of a file without the builder, finds out a table that states too little, and
-//! refuses one that claims no proof.
+//! Promise: `ErrorTable` proves the certified errors of a file without the builder, finds a table
+//! that states too little, and refuses a table that claims no proof.
 
 #![allow(clippy::unwrap_used, reason = "tests on small meshes")]
 

@@ -1,6 +1,6 @@
-//! Promise: certified errors hold for patches as nobody would make them: rolled up, torn, folded over, with faces missing, turned round
-//! or added anywhere, cut by seams, with coordinates that are tiny, huge or far away; one by one, and all together in one mesh.
-//! Proven anew from the files, without the builder.
+//! Promise: certified errors hold for defective patches: rolled up, torn, folded over, with faces
+//! missing, reversed or added anywhere, cut by seams, with coordinates that are tiny, huge or far
+//! away; one by one, and all together in one mesh. Proven from the files, without the builder.
 
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
@@ -23,7 +23,7 @@ enum Roll {
     Torus,
 }
 
-/// A patch of squares, most of them two triangles, as crooked as the numbers say.
+/// A patch of squares, most of them two triangles, with the defects that the random numbers choose.
 fn patch(random: &mut Random) -> TriangleMesh {
     let side = 2 + random.below(9);
     let roll = [Roll::Flat, Roll::Tube, Roll::Torus][random.below(3)];
@@ -72,7 +72,8 @@ fn patch(random: &mut Random) -> TriangleMesh {
     TriangleMesh { positions, triangles, ..TriangleMesh::default() }
 }
 
-/// The same with a colour for each third of the triangles, and so a seam where they meet.
+/// The same with a colour for each third of the triangles, so that there is a seam between the
+/// thirds.
 fn coloured(mesh: &TriangleMesh) -> TriangleMesh {
     let n_triangles = mesh.triangles.len();
     let corners = || mesh.triangles.iter().flatten();
@@ -100,8 +101,8 @@ fn ways() -> [BuildOptions; 4] {
     ]
 }
 
-/// Builds a mesh and proves the errors of `n` levels, the last one among them. How many levels there are: none where no triangle of it
-/// has an area.
+/// Builds a mesh and proves the errors of `n` levels, the last one among them. Returns the number
+/// of levels; 0 if no triangle has an area.
 fn check(name: &str, mesh: &TriangleMesh, options: &BuildOptions, n: u32) -> u32 {
     let build = match build(mesh, options, &|_| Continue(())) {
         Err(BuildError::NoTriangles { .. }) => return 0,
@@ -144,7 +145,7 @@ fn of_each() {
 fn of_all_together() {
     let mut random = Random(23);
     let mut all = TriangleMesh::default();
-    // As many as make slots close up and pools give back their gaps.
+    // Enough triangles for slots to close up and pools to give back their gaps.
     while all.triangles.len() < 12_000 {
         let mesh = patch(&mut random);
         let offset = all.positions.len() as u32;

@@ -1,4 +1,5 @@
-//! Promise: extraction writes what the runs say, plain and parallel alike, and nothing behind it.
+//! Promise: extraction writes the indices of the runs and nothing after them, plain and parallel
+//! alike.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

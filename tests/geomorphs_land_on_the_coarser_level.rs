@@ -1,4 +1,5 @@
-//! Promise: every vertex that leaves lands on a triangle of the coarser level, at its own place in the surface.
+//! Promise: every vertex that leaves lands on a triangle of the coarser level, near its own place
+//! on the surface.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod support;
@@ -22,7 +23,7 @@ fn place(lod: &Lod, landing: &Landing) -> Vector {
     (0..3).fold([0.0; 3], |sum, i| add_scaled(sum, f64::from(landing.weights[i]), corners[i]))
 }
 
-/// Checks what must hold of any landings, and gives the distance of each vertex to its own.
+/// Checks what must hold of any landings, and returns the distance of each vertex from its landing.
 fn check(lod: &Lod, fine: u32, coarse: u32) -> Vec<f64> {
     let landings = lod.geomorph(fine, coarse).unwrap();
     let cut = lod.at_level(coarse);
@@ -43,7 +44,7 @@ fn check(lod: &Lod, fine: u32, coarse: u32) -> Vec<f64> {
 fn on_a_flat_surface_every_vertex_stays_where_it_is() {
     let mut mesh = grid(20);
     mesh.positions.iter_mut().for_each(|position| position[2] = 0.0);
-    // Small enough that the corners of the square stay.
+    // So small that the corners of the square stay.
     let lod = built(&mesh, Some(1e-3));
     assert!(lod.n_levels() > 1);
     for coarse in 1..lod.n_levels() {
@@ -69,7 +70,8 @@ fn on_a_curved_surface_landings_are_about_as_near_as_can_be() {
             let nearest = corners.iter().map(|corners| point_triangle_distance_sq(position, corners));
             let nearest = nearest.fold(f64::INFINITY, f64::min).sqrt();
             assert!(distance > nearest - 1e-5);
-            // The bound is proven for the nearest point, not for a landing, which may slide.
+            // The bound is proven for the nearest point. A landing may be farther, because it
+            // follows the replacements.
             assert!(distance <= 3.0 * cut.error() + 1e-5, "{distance} {}", cut.error());
             (sum, nearest_sum) = (sum + distance, nearest_sum + nearest);
         }

@@ -1,4 +1,5 @@
-//! Promise: every level of a file is the mesh that a linear scan of its history gives, over a prefix of the vertices.
+//! Promise: every level of a file is the mesh that a linear scan of its history gives, over a
+//! prefix of the vertices.
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
 
 mod support;
@@ -45,7 +46,8 @@ proptest! {
         for level in 0..lod.n_levels() {
             let cut = lod.at_level(level);
             let found = cut.to_mesh().unwrap();
-            // A mesh of its own holds what its triangles use, each vertex with its own values.
+            // A mesh of its own has only the vertices that its triangles use, each with its own
+            // values.
             let n_used = found.triangles.iter().flatten().collect::<std::collections::BTreeSet<_>>().len();
             prop_assert_eq!((found.positions.len(), cut.n_vertices()), (n_used, n_used));
             prop_assert!(found.check().is_ok());
@@ -77,7 +79,8 @@ fn the_first_level_is_the_input_with_its_attributes() {
     assert_eq!(found.origin, mesh.origin);
     assert_eq!(found.attributes.len(), mesh.attributes.len());
 
-    // The attribute `quality` is the number of the vertex in the input, which tells where each vertex went.
+    // The attribute `quality` is the number of the vertex in the input, so it tells where each
+    // vertex went.
     let quality: Vec<f64> = bytemuck::pod_collect_to_vec(&found.attributes[1].bytes);
     for (place, &vertex) in quality.iter().enumerate() {
         let vertex = vertex as usize;
@@ -131,7 +134,7 @@ fn tetrahedra_are_stored_like_triangles() {
     for _ in 0..300 {
         let birth = random.below(2) as u32 * random.below(n_steps as usize) as u32;
         let death = birth + 1 + random.below((n_steps - birth) as usize) as u32;
-        // Every vertex below this one is there until the death.
+        // Every vertex below this one lives until the death.
         let n_usable = (n_vertices - death) as usize;
         history.simplices.push(std::array::from_fn(|_| random.below(n_usable + 1) as u32));
         history.birth.push(birth);

@@ -1,6 +1,7 @@
-//! Promise: whatever a `.neph` file claims, opening, verifying and using it takes memory in proportion to its length.
+//! Promise: whatever a `.neph` file claims, opening, verifying and using it takes memory in
+//! proportion to its length.
 //!
-//! The allocator of this test refuses what goes beyond, and a refused allocation ends the process.
+//! The allocator of this test refuses more than that, and a refused allocation ends the process.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -16,7 +17,7 @@ use support::synthetic::{decimate, grid};
 #[global_allocator]
 static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 
-/// Bytes at once per byte of the file, and in any case.
+/// Most bytes at a time: per byte of the file, and in any case.
 const BYTES_PER_BYTE: usize = 64;
 const BYTES_ALWAYS: usize = 1 << 20;
 
@@ -27,7 +28,7 @@ fn use_within(bytes: &[u8]) {
     drop(outcome);
 }
 
-/// The only test, as the cap is for the whole process.
+/// The only test of this file, because the cap is for the whole process.
 #[test]
 fn of_every_bad_file_and_of_good_ones() {
     for side in [2, 30, 120] {
@@ -36,7 +37,7 @@ fn of_every_bad_file_and_of_good_ones() {
         for is_compact in [false, true] {
             let options = StoreOptions { is_compact, ..StoreOptions::default() };
             let bytes = support::file_bytes_with(&mesh, &history, &options);
-            // Threads and their buffers come with the first file.
+            // Threads and their buffers are allocated with the first file.
             open_and_use(&bytes);
             use_within(&bytes);
         }

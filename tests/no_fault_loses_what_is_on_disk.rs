@@ -1,5 +1,6 @@
-//! Promise: whichever operation of the file system fails, and however, the output path holds the old file or the new one, a
-//! success means the new one, and the next write clears away what a crash has left.
+//! Promise: whichever operation of the file system fails, and however, the output path holds the
+//! old file or the new one, success means the new one, and the next write removes what a crash has
+//! left.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
@@ -37,8 +38,8 @@ struct Attempt {
     leftovers: usize,
 }
 
-/// Makes operation 1, 2, ... of `write` fail in every way until none is left to fail, and checks the folder after each.
-/// Returns how often each operation was struck.
+/// Makes operation 1, 2, ... of `write` fail in every way until there is none left, and checks the
+/// folder after each. Returns how often each operation failed.
 fn strike_every_operation<E: std::fmt::Debug>(
     write: impl Fn(&Faulty, &Path) -> Result<(), E>,
     write_well: impl Fn(&Path),
@@ -46,7 +47,7 @@ fn strike_every_operation<E: std::fmt::Debug>(
     let mut n_struck = BTreeMap::new();
     for fault in FAULTS {
         let mut n_quiet = 0;
-        // Operations that the fault does not concern pass; after many of them in a row there are no more.
+        // Operations of other kinds pass the fault; after many of them in a row there are no more.
         for at in 1.. {
             let attempt = attempt(fault, at, &write, &write_well);
             let Some(operation) = attempt.struck else {
@@ -94,7 +95,8 @@ fn attempt<E: std::fmt::Debug>(
 
 fn check(fault: Fault, operation: &str, attempt: &Attempt) {
     let is_old = attempt.bytes == b"old";
-    // A folder that cannot be listed hides leftovers, which is no reason to write nothing; a short write is not even a fault.
+    // A folder that cannot be listed hides leftovers, but a file can still be written. A short
+    // write is not a fault.
     let is_harmless = fault == Fault::ShortWrite || (operation == "names" && fault == Fault::Error);
     let is_renamed = operation == "sync folder";
     assert_eq!(attempt.is_done, is_harmless, "{fault:?} of {operation}");
@@ -174,7 +176,7 @@ impl From<PublishError> for MeshFailure {
 fn write_mesh_in<S: Storage>(disk: &S, path: &Path, mesh: &TriangleMesh) -> Result<(), MeshFailure> {
     let write =
         |file: &mut S::File| write_mesh_to(file, mesh, MeshFormat::Ply).map(drop).map_err(MeshFailure::Mesh);
-    // Meshes have no checksums; what is read back must be the mesh.
+    // Meshes have no checksums, so what is read back is compared with the mesh.
     publish_in(disk, path, write, |file, temporary| {
         let mut bytes = Vec::new();
         let failed = |source| PublishError { action: "check", path: temporary.to_owned(), source };

@@ -1,4 +1,4 @@
-//! Promise: hundreds of threads ask one `Lod` at once and get the answers that one thread gets.
+//! Promise: hundreds of threads query one `Lod` at once and get the answers that one thread gets.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -1,4 +1,5 @@
-//! Promise: opening looks at the head only, whatever the size of the file and whatever it is; offsets beyond 4 GiB work.
+//! Promise: opening reads the head only, whatever the size and the source of the file. Offsets
+//! beyond 4 GiB work.
 
 #![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
 #![allow(
@@ -14,7 +15,8 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// A sparse file of more than 20 GiB: a valid head, and nothing but zeros in every section, save one level's runs.
+/// A sparse file of more than 20 GiB: a valid head, and zeros in every section except the runs of
+/// one level.
 fn write_giant(path: &Path) -> u64 {
     let (n_levels, n_vertices, n_slots) = (1_000_000u32, 400_000_000u64, 1_200_000_000u64);
     let sections = [
@@ -69,10 +71,11 @@ fn a_file_of_twenty_gigabytes_opens_by_its_head() {
     assert!(file_bytes > 20 << 30);
 
     let faults_before = page_faults();
-    // SAFETY: nobody knows the temporary file.
+    // SAFETY: no other process knows the temporary file.
     let lod = unsafe { Lod::map(&path) }.unwrap();
     let n_faults = page_faults().zip(faults_before).map(|(after, before)| after - before);
-    // The head is one page, or sixteen when the system maps its neighbours; the rest is the allocator's.
+    // The head is one page, or 16 if the system maps neighbouring pages; the rest are of the
+    // allocator.
     assert!(n_faults.is_none_or(|n_faults| n_faults < 64), "{n_faults:?} pages touched");
 
     assert_eq!(lod.file_bytes(), file_bytes);
@@ -85,10 +88,10 @@ fn a_file_of_twenty_gigabytes_opens_by_its_head() {
     assert_eq!(lod.at_error(0.0).level(), 999_999);
 }
 
-/// Page faults of this thread so far, where the system tells.
+/// Page faults of this thread so far; `None` if the system does not tell.
 fn page_faults() -> Option<u64> {
     let stat = std::fs::read_to_string("/proc/thread-self/stat").ok()?;
-    // Fields behind the program's name, which is in parentheses: minor faults are the 8th.
+    // Fields after the name of the program, which is in parentheses: minor faults are the 8th.
     stat.rsplit_once(')')?.1.split_whitespace().nth(7)?.parse().ok()
 }
 
@@ -103,10 +106,10 @@ fn what_is_no_file_is_refused() {
     let empty = folder.path().join("empty.neph");
     File::create(&empty).unwrap();
     assert!(matches!(Lod::open(&empty), Err(OpenError::Format(neph::NephError::Truncated { found: 0, .. }))));
-    // SAFETY: nobody knows the temporary file.
+    // SAFETY: no other process knows the temporary file.
     let mapped = unsafe { Lod::map(&empty) };
     assert!(matches!(mapped, Err(OpenError::Format(neph::NephError::Truncated { found: 0, .. }))));
-    // A short file that claims to be long: refused before memory for the claim is taken.
+    // A short file that claims to be long is refused before memory for the claim is allocated.
     let claim = folder.path().join("claim.neph");
     let header =
         Header { magic: MAGIC, version: VERSION, file_bytes: 1 << 60, ..bytemuck::Zeroable::zeroed() };

@@ -1,5 +1,5 @@
-//! The promise: an operation stream builds the input up from nothing and takes it down again, exactly, and its beginning is
-//! as good as the whole as far as it goes; damaged ones end in an error.
+//! Promise: an operation stream builds the input from nothing and takes it down again, exactly. The
+//! beginning of a stream can be played as far as it goes; damaged streams end in an error.
 
 #![allow(
     clippy::unwrap_used,
@@ -23,7 +23,7 @@ fn decimate(mesh: &TriangleMesh, pre_split: bool) -> Build {
     build(mesh, &options, &|_| ControlFlow::Continue(())).unwrap()
 }
 
-/// Triangles as the bits of their corners' positions, whatever the numbers of vertices.
+/// Triangles as the bits of the positions of their corners, independent of vertex numbers.
 fn shape(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[[u32; 3]; 3]> {
     let bits = |&v: &u32| positions[v as usize].map(f32::to_bits);
     let mut shape: Vec<_> =
@@ -98,7 +98,7 @@ fn streams_are_half_as_long_as_indices_and_positions() {
     assert!(coded * 9 <= standard * 4, "{coded} of {standard}");
 }
 
-/// What the verification of a file with these operations says.
+/// The result of verifying a file with these operations.
 fn verify_with(build: &Build, operations: &[u8]) -> Result<(), VerifyError> {
     let mut file = Cursor::new(Vec::new());
     let (provenance, options) = (Provenance::default(), StoreOptions::default());

@@ -1,4 +1,4 @@
-//! Promise: a cut drawn as runs, and all the more its ordered copy, reuses transformed vertices.
+//! Promise: a cut drawn as runs reuses transformed vertices, and its ordered copy reuses more.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod support;

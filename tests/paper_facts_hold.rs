@@ -1,4 +1,4 @@
-//! What the JADE paper says about its estimates and its test surface.
+//! Promise: what the JADE paper says about its estimates and its test surface holds here.
 
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "tests on small meshes")]
 
@@ -18,9 +18,10 @@ fn triangles_at(mesh: &TriangleMesh, history: &History, percent: f64) -> usize {
     alive_at(history, u32::try_from(n_within.saturating_sub(1)).unwrap()).len()
 }
 
-/// Section 4, figure 1: where removals bend the line one way and back, the accumulated estimate exceeds the true error.
-/// The profile zigzags with amplitude 1, so the straight ribbon between its ends is nowhere farther than 1 from it. The
-/// removed vertices know that and allow it at an error of 1; accumulation keeps more.
+/// Section 4, figure 1: if removals bend the line one way and back, the accumulated estimate
+/// exceeds the true error. The profile zigzags with amplitude 1, so the straight ribbon between its
+/// ends is nowhere farther than 1 from it. The estimate from removed vertices allows that ribbon at
+/// an error of 1; the accumulated one keeps more triangles.
 #[test]
 fn accumulation_overestimates_on_a_zigzag_and_removed_vertices_do_not() {
     let profile: Vec<[f64; 2]> = (0..64).map(|i| [f64::from(i), f64::from(i % 2)]).collect();
@@ -32,7 +33,8 @@ fn accumulation_overestimates_on_a_zigzag_and_removed_vertices_do_not() {
     assert!(accumulated > 2 * removed, "accumulation keeps {accumulated}, removed vertices {removed}");
 }
 
-/// Section 4: e_g3 is never below either of the others, so at equal error it keeps at least about as many triangles.
+/// Section 4: e_g3 is never below either of the others, so at equal error it keeps at least about
+/// as many triangles.
 #[test]
 fn the_joint_estimate_is_the_cautious_one() {
     let mesh = generate::cosine(60);
@@ -43,8 +45,8 @@ fn the_joint_estimate_is_the_cautious_one() {
     }
 }
 
-/// Section 7: the history holds less than three times the triangles of the input. Table 3 gives 78,404 / 28,322 = 2.77
-/// for the cosine surface of 120 x 120 vertices.
+/// Section 7: the history holds less than three times the triangles of the input. Table 3 gives
+/// 78,404 / 28,322 = 2.77 for the cosine surface of 120 x 120 vertices.
 #[test]
 fn the_history_of_the_cosine_surface_stays_below_three_times_the_input() {
     let mesh = generate::cosine(120);
@@ -56,7 +58,8 @@ fn the_history_of_the_cosine_surface_stays_below_three_times_the_input() {
     }
 }
 
-/// Table 2: 412 triangles are left of the cosine surface at 0.535 % measured error with sampled flips.
+/// Table 2: 412 triangles are left of the cosine surface at 0.535 % measured error with sampled
+/// flips.
 #[test]
 fn the_cosine_surface_needs_no_more_triangles_than_in_the_paper() {
     let mesh = generate::cosine(120);

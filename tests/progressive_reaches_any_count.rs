@@ -1,5 +1,6 @@
-//! The promise: the progressive decimator reaches every triangle count from the input's down to none, on any input, and every
-//! mesh on the way is one: no index out of range, no triangle twice, no corner twice, nothing that was not in the history before.
+//! Promise: the progressive decimator reaches every triangle count from that of the input down to
+//! 0, on any input. Every mesh on the way is valid: no index out of range, no triangle twice, no
+//! corner twice, and nothing that the history did not have before.
 
 #![allow(
     clippy::unwrap_used,
@@ -53,7 +54,8 @@ fn surfaces_of_every_topology_go_down_to_nothing() {
 #[test]
 fn no_star_grows_over_a_flat_part() {
     const N: u32 = 1500;
-    // Two rows of vertices with slivers between them: all errors are zero until nothing is left but the corners.
+    // Two rows of vertices with slivers between them: all errors are 0 until only the corners are
+    // left.
     let row = |y: f32| (0..N).map(move |i| [i as f32, y, 0.0]);
     let slivers = (1..N).flat_map(|i| [[i - 1, i, N + i - 1], [i, N + i, N + i - 1]]);
     let mesh = TriangleMesh {
@@ -152,7 +154,8 @@ fn first_with_at_most(build: &Build, n: usize) -> Vec<[u32; 3]> {
     alive(low)
 }
 
-/// Triangles of a flat part's upper face (above height 1), its lower one, and those that belong to neither.
+/// Triangles of a flat part by face: the upper one (above height 1), the lower one, and those of
+/// neither.
 fn by_face(build: &Build, triangles: &[[u32; 3]]) -> [usize; 3] {
     let mut counts = [0; 3];
     for triangle in triangles {
@@ -198,7 +201,7 @@ fn both_faces_of_a_split_plate_outlive_its_holes() {
         assert!(passage.events.count(EventKind::HoleClosed) >= n_rims, "{:?}", passage.counts);
         let last = first_with_at_most(&build, 4);
         assert_eq!(by_face(&build, &last), [2, 2, 0], "{drilling:?}");
-        // Each face is a square again, with its corners at those of the plate.
+        // Each face is a square again, with its corners at the corners of the plate.
         let size = [drilling.columns, drilling.rows].map(|n| 10.0 * n as f32);
         for triangle in last {
             for [x, y, _] in triangle.map(|v| build.mesh.positions[v as usize]) {

@@ -1,5 +1,5 @@
-//! Promise: after a failed write the path holds what it held before, nothing is left beside it, and readers of the old file
-//! keep it.
+//! Promise: after a failed write the path holds what it held before, nothing is left beside it, and
+//! readers of the old file keep it.
 
 #![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -113,7 +113,7 @@ fn a_folder_that_cannot_be_written_to_keeps_its_file() {
     }
 }
 
-/// A stream whose operation number `n_good` fails, and which takes few bytes at a time.
+/// A stream that takes few bytes at a time and fails at operation number `n_good`.
 struct Failing {
     inner: Cursor<Vec<u8>>,
     n_good: usize,
@@ -154,7 +154,8 @@ fn a_stream_that_fails_at_any_operation_gives_its_error() {
         match write_to(&mut stream, &mesh, &history, &Provenance::default(), &StoreOptions::default()) {
             Err(WriteError::Stream(error)) => {
                 assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-                // The head comes last: whatever was written until then does not open, unless only a flush was missing.
+                // The head is written last: until then the file does not open, unless only a flush
+                // was missing.
                 let written = stream.inner.get_ref();
                 assert!(Lod::from_bytes(written).is_err() || *written == whole);
             }
@@ -176,7 +177,7 @@ fn input_that_does_not_fit_is_refused_with_its_error() {
         edit(&mut mesh);
         let (stream, options) = (&mut Cursor::new(Vec::new()), StoreOptions::default());
         let error = write_to(stream, &mesh, &history, &Provenance::default(), &options).unwrap_err();
-        // Known before a build already.
+        // Already known before a build.
         let is_of_attributes =
             matches!(error, WriteError::Attribute { .. } | WriteError::TooManyAttributes { .. });
         let before = check_attributes(&mesh).err().map(|error| error.to_string());

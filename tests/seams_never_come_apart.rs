@@ -1,5 +1,6 @@
-//! Where attributes differ along a seam, both sides keep their own vertices and the surface stays closed: no crack opens, and
-//! no triangle takes a vertex from the other side. Normals alone bind nobody.
+//! Promise: where attributes differ along a seam, both sides keep their own vertices and the
+//! surface stays closed. No crack opens, and no triangle takes a vertex from the other side.
+//! Normals alone make no seam.
 
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tests on small meshes")]
 
@@ -11,7 +12,8 @@ use nephrite::{Attribute, BuildOptions, ScalarType, TriangleMesh};
 const COLUMNS: u32 = 48;
 const ROWS: u32 = 24;
 
-/// A tube whose texture goes round once: the first and the last column of vertices are in the same place.
+/// A tube with a texture around it: the first and the last column of vertices have the same
+/// positions.
 fn textured_tube() -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
     let mut coordinates = vec![];
@@ -43,7 +45,7 @@ fn is_on_seam(v: u32) -> bool {
     (v % (COLUMNS + 1)).is_multiple_of(COLUMNS)
 }
 
-/// The vertex at the place of `v` that has the texture coordinate 0.
+/// The vertex at the position of `v` with texture coordinate 0.
 fn place(v: u32) -> u32 {
     if v % (COLUMNS + 1) == COLUMNS { v - COLUMNS } else { v }
 }

@@ -1,4 +1,4 @@
-//! Promise: whatever test, script or file the pages on security name is there.
+//! Promise: every test, script and file that the pages on security name exists.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -28,7 +28,7 @@ fn code(folder: PathBuf, all: &mut String) {
     }
 }
 
-/// What stands between backquotes.
+/// The parts of a text between backquotes.
 fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }

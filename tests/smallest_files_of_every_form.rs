@@ -1,5 +1,6 @@
-//! Promise: files of every form, as small as they get, open from memory and from disk, verify, and answer everything. Small enough
-//! for `tests/miri`, which reads them under an interpreter that knows what memory holds.
+//! Promise: the smallest files of every form open from memory and from disk, verify, and answer
+//! every query. They are small enough for `tests/miri`, which reads them under an interpreter that
+//! checks each access to memory.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small files")]

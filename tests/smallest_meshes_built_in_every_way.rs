@@ -1,5 +1,6 @@
-//! Promise: the smallest meshes are built in every way there is, into files that verify and whose errors are proven anew. Small enough
-//! for `tests/miri`, which builds them under an interpreter that knows what memory holds.
+//! Promise: the smallest meshes can be built with every decimator and option, into files that
+//! verify and whose errors are proven again. They are small enough for `tests/miri`, which builds
+//! them under an interpreter that checks each access to memory.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, reason = "small meshes")]
@@ -19,8 +20,8 @@ use std::ops::ControlFlow::Continue;
 use support::on_this_thread;
 use support::served::served;
 
-/// A bumpy icosahedron with one face open and one vertex of a second colour, with a flap at an edge that has two faces already, a
-/// triangle without area and one that occurs twice.
+/// A bumpy icosahedron with one face missing and one vertex of a second colour, a flap at an edge
+/// that already has two faces, a triangle without area and a triangle that occurs twice.
 fn crooked() -> TriangleMesh {
     let mut mesh = generate::sphere(1);
     for (i, p) in (0_u8..).zip(&mut mesh.positions) {

@@ -1,4 +1,4 @@
-//! The same input and options give the same history on any number of threads.
+//! Promise: the same input and options give the same history on any number of threads.
 
 mod engine;
 

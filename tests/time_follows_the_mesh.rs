@@ -29,7 +29,8 @@ fn of_a_million_components() {
     assert_eq!(built.mesh.triangles.len(), mesh.triangles.len());
 }
 
-/// The triangles from a hub to a ring of `n` vertices, which `place` puts somewhere for their angle and number.
+/// The triangles from a hub to a ring of `n` vertices, which `place` positions by their angle and
+/// number.
 fn fan(n: u32, place: impl Fn(f32, u32) -> [f32; 3]) -> TriangleMesh {
     let angle = |i: u32| i as f32 / n as f32 * std::f32::consts::TAU;
     TriangleMesh {

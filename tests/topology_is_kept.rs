@@ -1,5 +1,6 @@
-//! A closed manifold stays a closed manifold of the same Euler characteristic at every step, a bounded one keeps its
-//! boundary loops, step 0 is the input, and vertices die in prefix order.
+//! Promise: a closed manifold stays a closed manifold of the same Euler characteristic at every
+//! step, a bounded one keeps its boundary loops, step 0 is the input, and vertices die in prefix
+//! order.
 
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "tests on small meshes")]
 

@@ -1,5 +1,5 @@
-//! With the best placement a level needs fewer triangles for its error; the topology, seams, boundary and bounding box stay as
-//! they are; and the file serves every level as any other file does.
+//! Promise: with the best placement a level needs fewer triangles for its error. The topology,
+//! seams, boundary and bounding box stay, and the file serves every level like any other file.
 
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "tests on small meshes")]
 
@@ -105,7 +105,7 @@ fn vertices_of_a_seam_stay_and_the_others_keep_their_attributes() {
     assert_eq!(values.len(), build.mesh.positions.len());
     assert!(values[n_before..].iter().all(|&value| value > 0.0 && value < 1.0), "a vertex of the seam moved");
     for step in spread_steps(&build.history, 40) {
-        // By place, both sides of the seam are one: the surface is closed.
+        // By position, both sides of the seam are one, so the surface is closed.
         let place = |v: u32| build.mesh.positions[v as usize].map(f32::to_bits);
         let triangles = alive_at(&build.history, step);
         let places: Vec<_> = triangles.iter().flatten().map(|&v| place(v)).collect();

@@ -1,4 +1,5 @@
-//! Promise: a view gets the coarsest level within its tolerance, and a caller that asks every frame no flicker.
+//! Promise: a view gets the coarsest level within its tolerance, and a caller that asks every frame
+//! gets no flicker.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod support;
@@ -31,7 +32,7 @@ fn a_view_gets_the_coarsest_level_within_its_tolerance() {
         }
         levels.push(cut.level());
     }
-    // Near by no error is small enough: the coarsest level without one.
+    // Close by, no error is small enough: the coarsest level without error.
     let exact = lod.at_error(0.0).level();
     assert!(levels.is_sorted() && levels[0] == exact && levels[399] == lod.n_levels() - 1);
 }
@@ -73,7 +74,7 @@ fn a_trembling_view_settles_on_one_level() {
             let plain = lod.at_pixels(&view).level();
             assert!(cut.level() <= plain);
             if frame > 0 {
-                // Only on to a finer level, never to and fro.
+                // Only to a finer level, never back and forth.
                 assert!(cut.level() <= before);
                 n_switches += u32::from(cut.level() != before);
                 n_switches_without_memory += u32::from(plain != plain_before);

@@ -1,5 +1,6 @@
-//! Promise: every level of a volume is a whole volume: nothing inverted, the volume within 0.1 %, the topology of its boundary, its
-//! corners and creases, and a linear field kept, and the boundary as near to the input's as the level says.
+//! Promise: every level of a volume is a whole volume. No tetrahedron is inverted; the volume stays
+//! within 0.1 %; the topology of the boundary, its corners and creases, and a linear field are
+//! kept; and the boundary is as close to that of the input as the level states.
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -86,7 +87,7 @@ fn a_box_keeps_its_corners_edges_and_linear_field() {
     let (build, lod) = built(&input, &VolumeOptions::default());
     let levels: BTreeSet<u32> = (0..lod.n_levels()).collect();
     check(&input, &lod, &levels);
-    // Flat faces leave no reason to stop.
+    // Flat faces give no reason to stop.
     let coarsest = lod.at_level(lod.n_levels() - 1);
     assert!(coarsest.n_simplices() * 20 < input.tetrahedra.len(), "{}", coarsest.n_simplices());
     assert!(build.n_tetrahedron_fusions > 0);
@@ -120,7 +121,7 @@ fn a_ball_stays_a_ball() {
     let input = ball_volume(16);
     let (build, lod) = built(&input, &fused_whole());
     check(&input, &lod, &spread(&lod, 20));
-    // At least eleven tetrahedra go with one inside, the paper's lower bound.
+    // A tetrahedron inside takes at least eleven with it, the lower bound of the paper.
     let n_left = lod.at_level(lod.n_levels() - 1).n_simplices();
     assert!(build.n_left_by_tetrahedra * 10 < 7 * input.tetrahedra.len(), "{}", build.n_left_by_tetrahedra);
     assert!(n_left * 2 < input.tetrahedra.len(), "{n_left}");

@@ -1,8 +1,10 @@
-//! Promise: every bad mesh file ends as `outcomes.txt` says: refused with a certain error, repaired with counted repairs, or
-//! accepted as it is; and what is not refused becomes a `.neph` file that verifies.
+//! Promise: every bad mesh file has the outcome stated in `outcomes.txt`: refused with a certain
+//! error, repaired with counted repairs, or accepted as it is. A file that is not refused becomes a
+//! `.neph` file that verifies.
 //!
-//! The files in `files/` are made by the modules beside this one. After a change there,
-//! `REGENERATE=1 cargo test --test bad_meshes stated_outcome` writes them anew, and the outcomes found with them: read the difference.
+//! The modules beside this one make the files in `files/`. After a change there, run `REGENERATE=1
+//! cargo test --test bad_meshes stated_outcome`; it writes the files and the outcomes found for
+//! them. Then read the difference.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small literal meshes")]
@@ -33,7 +35,8 @@ fn corpus() -> Corpus {
     Corpus::new("tests/bad_meshes", lists)
 }
 
-/// What becomes of a file: `refused: ERROR`, or its triangles and every count of what was dropped, ignored or repaired.
+/// The outcome of a file: `refused: ERROR`, or its triangles and every count of what was dropped,
+/// ignored or repaired.
 fn outcome(path: &Path) -> String {
     let (mesh, report) = match read_mesh(path) {
         Ok(read) => read,
@@ -76,7 +79,7 @@ fn every_file_is_made_here_and_has_an_outcome() {
 #[test]
 fn every_error_of_reading_has_a_file() {
     const OF_WRITING: [&str; 3] = ["UnknownExtension", "InconsistentMesh", "TooLargeForFormat"];
-    // A file can be refused by the system only where there is none: `a_missing_file_is_refused`.
+    // The system refuses a file only if it does not exist: `a_missing_file_is_refused`.
     const OF_THE_SYSTEM: [&str; 2] = ["InFile", "Io"];
     // Volumes have readers and tests of their own.
     const OF_VOLUMES: [&str; 3] = ["UnknownVolumeFormat", "UnknownVolumeExtension", "NoTetrahedra"];

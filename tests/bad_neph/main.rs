@@ -1,8 +1,10 @@
-//! Promise: every bad `.neph` file ends as `outcomes.txt` says: refused when it is opened, opened and refused when it is
-//! verified, or accepted; and whatever opens gives bounded answers in range to everything that is asked.
+//! Promise: every bad `.neph` file has the outcome stated in `outcomes.txt`: refused when it is
+//! opened, opened and refused when it is verified, or accepted. Whatever opens gives bounded
+//! answers in range to every query.
 //!
-//! The files in `files/` are made by the modules beside this one. After a change there, `REGENERATE=1 cargo test --test bad_neph
-//! stated_outcome` writes them anew, and the outcomes found with them: read the difference.
+//! The modules beside this one make the files in `files/`. After a change there, run `REGENERATE=1
+//! cargo test --test bad_neph stated_outcome`; it writes the files and the outcomes found for them.
+//! Then read the difference.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, reason = "small files")]
@@ -23,7 +25,7 @@ use nephrite::store::{OpenError, VerifyError};
 use std::collections::BTreeSet;
 use support::damage::{Outcome, open_and_use};
 
-/// Small valid files with one thing wrong, all checksums made right where the fault is not in them.
+/// Small valid files with one fault; all checksums are correct unless the fault is in them.
 fn corpus() -> Corpus {
     let lists = [heads::cases(), contents::cases(), operations::cases(), trees::cases()];
     let named = |(name, bytes): (&str, Vec<u8>)| (format!("{name}.neph"), bytes);
@@ -58,7 +60,8 @@ fn every_file_is_made_here_and_has_an_outcome() {
 
 #[test]
 fn every_error_of_opening_and_verifying_has_a_file() {
-    // What a file in memory cannot meet: a disk that does not read, and a head that changed after it was checked.
+    // Errors that a file in memory cannot have: a disk that does not read, and a head that changed
+    // after it was checked.
     const OF_THE_SYSTEM: [&str; 2] = ["Read", "Head"];
     let of_head = variants(include_str!("../../formats/src/neph/error.rs"), "NephError");
     let of_contents = variants(include_str!("../../src/store/error.rs"), "VerifyError");

@@ -1,4 +1,5 @@
-//! Operation streams that do not build level 0 up: of a mesh of one triangle, made by hand after the format's description.
+//! Operation streams that do not build level 0: of a mesh of one triangle, made by hand from the
+//! description of the format.
 
 use super::Cases;
 use nephrite::TriangleMesh;
@@ -48,7 +49,7 @@ fn file(operations: &[u8]) -> Vec<u8> {
     file.into_inner()
 }
 
-/// One operation, a triangle of three new vertices, in one block without coding.
+/// One operation, a triangle of three new vertices, in one uncompressed block.
 fn stream(corners: &[[f32; 3]; 3], n_announced: u64) -> Vec<u8> {
     let mut planes = vec![Vec::new(); 12];
     planes[0].push(2);
@@ -78,7 +79,8 @@ fn put(planes: &mut [Vec<u8>], value: u32) {
     planes.iter_mut().zip(value.to_le_bytes()).for_each(|(plane, byte)| plane.push(byte));
 }
 
-/// The difference of the places of two floats in the order of all floats, doubled, with the sign in the last bit.
+/// The difference of the ranks of two floats in the order of all floats, doubled, with the sign in
+/// the last bit.
 fn difference(value: f32, from: f32) -> u32 {
     let place = |x: f32| if x.is_sign_negative() { !x.to_bits() } else { x.to_bits() | 1 << 31 };
     let steps = place(value).wrapping_sub(place(from));

@@ -61,7 +61,8 @@ pub(crate) fn cases() -> Cases {
     ]
 }
 
-/// The last height-0 node's run left out of the offsets, so that the last slots belong to nobody.
+/// The run of the last node of height 0 is left out of the offsets, so that no run reaches the last
+/// slots.
 fn no_run_reaches() -> Vec<u8> {
     let valid = Valid::plain();
     let (offset, len) = valid.seal.section(SectionKind::Runs);
@@ -74,7 +75,7 @@ fn no_run_reaches() -> Vec<u8> {
     })
 }
 
-/// A level with a run that no height has, every section in its place.
+/// A level with a run that no height has; every section has the right length.
 fn one_run_more() -> Vec<u8> {
     let mesh = grid(7);
     let valid = Valid::new(file_bytes_with(&mesh, &decimate(&mesh, usize::MAX, 3), &StoreOptions::default()));

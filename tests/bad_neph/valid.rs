@@ -1,4 +1,4 @@
-//! Small valid files, and copies of them with one thing changed and all checksums right.
+//! Small valid files, and copies with one change and correct checksums.
 
 use super::support::damage::{Seal, edit_header};
 use super::support::file_bytes_with;
@@ -8,7 +8,7 @@ use nephrite::history::Deviation;
 use nephrite::store::StoreOptions;
 use nephrite_formats::neph::{HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind, SectionRecord};
 
-/// A valid file and where its sections are.
+/// A valid file and the places of its sections.
 pub(crate) struct Valid {
     pub(crate) bytes: Vec<u8>,
     pub(crate) seal: Seal,

@@ -1,9 +1,10 @@
-//! Promise: every bad volume file ends as `outcomes.txt` says: refused with a certain error, repaired with counted repairs, or
-//! accepted as it is; and what is not refused becomes a `.neph` file that verifies.
+//! Promise: every bad volume file has the outcome stated in `outcomes.txt`: refused with a certain
+//! error, repaired with counted repairs, or accepted as it is. A file that is not refused becomes a
+//! `.neph` file that verifies.
 //!
-//! The files in `files/` are made by the modules beside this one. After a change there,
-//! `REGENERATE=1 cargo test --test bad_volumes stated_outcome` writes them anew, and the outcomes found with them: read the
-//! difference.
+//! The modules beside this one make the files in `files/`. After a change there, run `REGENERATE=1
+//! cargo test --test bad_volumes stated_outcome`; it writes the files and the outcomes found for
+//! them. Then read the difference.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small literal meshes")]
@@ -48,18 +49,19 @@ fn corpus() -> Corpus {
     Corpus::new("tests/bad_volumes", lists)
 }
 
-/// A text with the first place of `from` replaced, which must be there.
+/// A text with the first occurrence of `from` replaced; there must be one.
 fn edited(text: &str, from: &str, to: &str) -> Vec<u8> {
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1).into_bytes()
 }
 
-/// Cases with the extension of their format behind their names.
+/// Cases whose names get the extension of their format.
 fn named(extension: &str, cases: impl IntoIterator<Item = (&'static str, Vec<u8>)>) -> Vec<Case> {
     cases.into_iter().map(|(name, bytes)| (format!("{name}.{extension}"), bytes)).collect()
 }
 
-/// What becomes of a file: `refused: ERROR`, or its tetrahedra and every count of what was dropped, cut, ignored or repaired.
+/// The outcome of a file: `refused: ERROR`, or its tetrahedra and every count of what was dropped,
+/// cut, ignored or repaired.
 fn outcome(path: &Path) -> String {
     let (mesh, report) = match read_volume(path) {
         Ok(read) => read,
@@ -108,7 +110,8 @@ fn every_error_of_reading_volumes_has_a_file() {
     const OF_WRITING: [&str; 4] =
         ["UnknownExtension", "UnknownVolumeExtension", "InconsistentMesh", "TooLargeForFormat"];
     const OF_SURFACES: [&str; 5] = ["UnknownFormat", "NoFaces", "EndsEarly", "Json", "Reference"];
-    // A file that was refused for its partner's sake has the system's reason inside, and its own name around.
+    // A file that was refused for its partner's sake has the system's reason inside, and its own
+    // name around.
     const AROUND: [&str; 1] = ["InFile"];
     let others = [&OF_WRITING[..], &OF_SURFACES, &AROUND].concat();
     let of_volumes: Vec<_> = variants(include_str!("../../formats/src/error.rs"), "MeshError")

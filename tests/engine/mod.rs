@@ -1,4 +1,4 @@
-//! What the engine's tests share: a step of a history, and naive facts about it.
+//! Shared by the tests of the engine: a step of a history, and facts about it found the naive way.
 
 #![allow(dead_code, reason = "each test takes what it needs")]
 #![allow(clippy::unwrap_used, reason = "tests")]
@@ -20,7 +20,8 @@ pub(crate) fn alive_at(history: &History, step: u32) -> Vec<[u32; 3]> {
     lifetimes.filter(|&((&birth, &death), _)| birth <= step && step < death).map(|(_, &t)| t).collect()
 }
 
-/// About `n` steps over the whole history, first and last among them, closer together towards the end.
+/// About `n` steps over the whole history, first and last among them, closer together towards the
+/// end.
 pub(crate) fn spread_steps(history: &History, n: u32) -> Vec<u32> {
     let last = history.errors.len() as u32 - 1;
     let back = |i: u32| (f64::from(last + 1).powf(f64::from(i) / f64::from(n)) - 1.0) as u32;
@@ -69,7 +70,8 @@ pub(crate) fn corners_of(mesh: &TriangleMesh, triangles: &[[u32; 3]]) -> Vec<[Ve
     triangles.iter().map(|t| t.map(point)).collect()
 }
 
-/// Distance of `p` to a triangle by minimising over it: along each edge, and inside by the normal equations.
+/// Distance of `p` to a triangle by minimising over it: along each edge, and inside by the normal
+/// equations.
 fn distance_to(p: Vector, [a, b, c]: [Vector; 3]) -> f64 {
     let on_edge = |a: Vector, b: Vector| {
         let (ab, ap) = (sub(b, a), sub(p, a));

@@ -1,4 +1,4 @@
-//! Input that is no surface, and options that make no sense.
+//! Inputs without a surface, and invalid options.
 
 use nephrite::TriangleMesh;
 use nephrite::measure::{MeasureError, MeasureOptions, Side, measure, sample_distances, vertex_distances};
@@ -9,7 +9,7 @@ fn plane() -> TriangleMesh {
     grid(2, [1.0, 1.0], |_, _| 0.0)
 }
 
-/// The error on either side of a comparison.
+/// The errors with the bad mesh on either side of the comparison.
 fn errors(bad: &TriangleMesh) -> [MeasureError; 2] {
     let options = MeasureOptions { n_samples: 10, ..MeasureOptions::default() };
     [measure(bad, &plane(), &options).unwrap_err(), measure(&plane(), bad, &options).unwrap_err()]

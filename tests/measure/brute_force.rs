@@ -7,8 +7,8 @@ use proptest::prelude::*;
 
 use crate::meshes::{corners, mesh};
 
-/// Largest distance of lattice points of one mesh from another, and no point of the mesh is farther than this by more
-/// than the second number.
+/// Largest distance of lattice points of one mesh from another. No point of the mesh is farther
+/// than that by more than the second number.
 fn lattice_distance(from: &TriangleMesh, to: &TriangleMesh, n: u32) -> (f64, f64) {
     let targets: Vec<_> = (0..to.triangles.len()).map(|t| corners(to, t)).collect();
     let mut largest = 0.0f64;

@@ -1,4 +1,4 @@
-//! Distances that can be written down.
+//! Distances with a closed form.
 
 use nephrite::TriangleMesh;
 use nephrite::geometry::vector::{cross, dot, length, sub};
@@ -6,7 +6,7 @@ use nephrite::measure::{Distance, MeasureOptions, Verdict, check_within, measure
 
 use crate::meshes::{corners, grid, mesh, scaled, sphere};
 
-/// Measures to 7 digits and compares both directions with what they should be, to 6.
+/// Measures to 7 digits and compares both directions with the expected values, to 6.
 fn check(reference: &TriangleMesh, mesh: &TriangleMesh, forward: f64, backward: f64) -> Distance {
     let options = MeasureOptions { n_samples: 10_000, tolerance: 1e-7, ..MeasureOptions::default() };
     let distance = measure(reference, mesh, &options).unwrap();
@@ -77,8 +77,8 @@ fn a_plane_with_a_bump() {
     let mut with_apex = square;
     with_apex.push([0.0, 0.0, height]);
     let pyramid = mesh(with_apex, vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]);
-    // The apex is straight above the plane; the centre of the plane is as far from all four sides, each of which lies
-    // in a plane like `height x + z = height`.
+    // The apex is straight above the plane; the centre of the plane is as far from all four sides,
+    // each of which lies in a plane like `height x + z = height`.
     let height = f64::from(height);
     let distance = check(&plane, &pyramid, height / height.hypot(1.0), height);
     let apex = distance.backward.farthest;
@@ -97,10 +97,11 @@ fn a_tilted_plane_has_a_known_mean() {
 
 #[test]
 fn a_sphere_and_a_larger_one() {
-    // An inscribed polyhedron and a copy about the same centre, `scale` times as large. A vertex of the copy is
-    // nearest to the vertex that it is a copy of: the sphere's tangent plane there supports the polyhedron. A point of
-    // a face is nearest to the copy of a face, and of those planes its own is no farther than the difference of their
-    // distances from the centre; the largest of these is attained where the farthest plane is nearest to the centre.
+    // An inscribed polyhedron and a copy about the same centre, `scale` times as large. A vertex of
+    // the copy is nearest to the vertex that it is a copy of: the sphere's tangent plane there
+    // supports the polyhedron. A point of a face is nearest to the copy of a face, and of those
+    // planes its own is no farther than the difference of their distances from the centre; the
+    // largest of these is attained where the farthest plane is nearest to the centre.
     let sphere = sphere(3);
     let scale = 1.03125f32;
     let larger = scaled(&sphere, scale);

@@ -1,4 +1,5 @@
-//! A folder of files that the tests make, each with a stated outcome in `outcomes.txt` beside them.
+//! A folder of files that the tests make, each with an outcome stated in `outcomes.txt` beside
+//! them.
 
 #![allow(unreachable_pub, reason = "a test file is no library")]
 #![allow(dead_code, reason = "each test takes what it needs")]
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// The name of a file and its bytes.
 pub type Case = (String, Vec<u8>);
 
-/// Files by names that are written down in the tests.
+/// Files under names that are literals in the tests.
 pub type Cases = Vec<(&'static str, Vec<u8>)>;
 
 /// Files by name, and where they are kept.
@@ -22,7 +23,7 @@ pub struct Corpus {
 }
 
 impl Corpus {
-    /// The files of several lists, no two of one name.
+    /// The files of several lists; names must differ.
     pub fn new(folder: &'static str, lists: impl IntoIterator<Item = Vec<Case>>) -> Self {
         let files: Vec<Case> = lists.into_iter().flatten().collect();
         let n_files = files.len();
@@ -49,8 +50,8 @@ impl Corpus {
         lines.map(|line| split(line).unwrap_or_else(|| panic!("no outcome in {line:?}"))).collect()
     }
 
-    /// Every file ends as stated. With `REGENERATE` in the environment files and outcomes are written anew first, under the line
-    /// `head`.
+    /// Checks that every file ends as stated. With `REGENERATE` in the environment, files and
+    /// outcomes are written first, below the line `head`.
     pub fn check_outcomes(&self, head: &str, outcome: impl Fn(&Path) -> String) {
         let found = || self.cases.keys().map(|name| (name.clone(), outcome(&self.file(name))));
         if std::env::var_os("REGENERATE").is_some() {
@@ -66,7 +67,8 @@ impl Corpus {
         assert!(wrong.is_empty(), "{wrong:#?}");
     }
 
-    /// Every file has an outcome and the bytes that are made here, and there is no other; gives their names.
+    /// Checks that every file has an outcome and the bytes that are made here, and that there is no
+    /// other file. Returns their names.
     pub fn check_files(&self) -> BTreeSet<String> {
         let stated: BTreeSet<String> = self.outcomes().into_keys().collect();
         let generated: BTreeSet<String> = self.cases.keys().cloned().collect();
@@ -84,8 +86,8 @@ impl Corpus {
     }
 }
 
-/// What is told of a file that was not refused: what is served of it, every count of the reports that is not zero, and the
-/// notes.
+/// The outcome of a file that was not refused: what is served of it, every count of the reports
+/// that is not 0, and the notes.
 pub fn told(served: &str, reports: [Value; 2], notes: impl Iterator<Item = String>) -> String {
     let mut counts = Vec::new();
     for report in reports {

@@ -1,4 +1,4 @@
-//! Using a file that may be damaged, and sealing it again after an edit.
+//! Using a file that may be damaged, and correcting its checksums after an edit.
 
 use nephrite::Lod;
 use nephrite::query::QueryError;
@@ -7,7 +7,7 @@ use nephrite_formats::neph::{
     self, Directory, HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind, SectionRecord,
 };
 
-/// Where a valid file keeps its checksums.
+/// Where a valid file has its checksums.
 pub struct Seal {
     directory: Directory,
 }
@@ -29,7 +29,7 @@ impl Seal {
         (offset as usize, len as usize)
     }
 
-    /// Makes all checksums of an edited copy of the file right again.
+    /// Corrects all checksums of an edited copy of the file.
     pub fn renew(&self, bytes: &mut [u8]) {
         let body = self.directory.body();
         let (offset, len) = self.section(SectionKind::Checksums);
@@ -42,7 +42,7 @@ impl Seal {
         self.renew_head(bytes);
     }
 
-    /// Makes the checksum of header and directory right again.
+    /// Corrects the checksum of header and directory.
     pub fn renew_head(&self, bytes: &mut [u8]) {
         let n_sections = self.directory.header().n_sections as usize;
         let directory = bytes[HEADER_BYTES..][..n_sections * SECTION_RECORD_BYTES].to_vec();
@@ -50,7 +50,8 @@ impl Seal {
     }
 }
 
-/// Makes the checksums of any bytes right where their head is good enough to find them. Returns whether it is.
+/// Corrects the checksums of any bytes, if their head is good enough to find them. Returns whether
+/// it is.
 pub fn reseal(bytes: &mut [u8]) -> bool {
     let Some(head) = bytes.get(..HEADER_BYTES) else { return false };
     let header: Header = bytemuck::pod_read_unaligned(head);
@@ -93,15 +94,15 @@ pub fn edit_header(bytes: &mut [u8], edit: impl FnOnce(&mut Header)) {
     bytes[..HEADER_BYTES].copy_from_slice(bytemuck::bytes_of(&header));
 }
 
-/// What became of a file.
+/// The outcome of a file.
 #[derive(Debug)]
 pub enum Outcome {
     Refused(OpenError),
-    /// It opened, and every answer was bounded and in range; this is what its verification says.
+    /// It opened, and every answer was bounded and in range; this is the result of verifying it.
     Used(Result<(), VerifyError>),
 }
 
-/// Opens a file, asks everything there is to ask at every level, and checks that each answer is in range.
+/// Opens a file, calls every query at every level, and checks that each answer is in range.
 pub fn open_and_use(bytes: &[u8]) -> Outcome {
     let lod = match Lod::from_bytes(bytes) {
         Ok(lod) => lod,

@@ -1,4 +1,4 @@
-//! Goes through a history that ends with nothing, step by step, and holds each mesh against what a mesh is.
+//! Goes through a history that ends with nothing, step by step, and checks that each mesh is valid.
 
 #![allow(clippy::cast_possible_truncation, reason = "counts of a build are u32")]
 
@@ -7,9 +7,10 @@ use nephrite::decimate::progressive::events::EventKind;
 use nephrite::history::NEVER;
 use std::collections::{HashMap, HashSet};
 
-/// Tells `fail` of the first thing that is wrong: a coordinate that is not finite, an index out of range, a corner or a triangle twice, a
-/// count that rises or falls by more than two, two triangles that disagree about an edge on which all of the input agreed
-/// while nothing had been attached yet, triangles that are left in the end. Gives the number of steps.
+/// Tells `fail` the first thing that is wrong: a coordinate that is not finite, an index out of
+/// range, a corner or a triangle twice, a count that rises or falls by more than two, two triangles
+/// that disagree about an edge although all of the input agreed and nothing has been attached yet,
+/// or triangles that are left at the end. Returns the number of steps.
 pub fn check(build: &Build, fail: impl Fn(String)) -> usize {
     let history = &build.history;
     if let Err(error) = history.check() {
@@ -77,11 +78,11 @@ fn first_attachment(build: &Build) -> u32 {
     events.filter(|event| kinds.contains(&event.kind)).map(|event| event.step).next().unwrap_or(u32::MAX)
 }
 
-/// Edges as triangles run along them.
+/// Edges in the directions in which triangles run along them.
 #[derive(Default)]
 struct Edges {
     uses: HashMap<[u32; 2], u32>,
-    /// Edges along which several triangles run in one direction.
+    /// Directed edges of several triangles.
     n_shared: usize,
 }
 
@@ -107,7 +108,7 @@ impl Edges {
     }
 }
 
-/// The triangle from its least corner on, in its orientation.
+/// The triangle from its smallest corner on, in its orientation.
 fn key(triangle: [u32; 3]) -> [u32; 3] {
     let [a, b, c] = triangle;
     if a < b && a < c {

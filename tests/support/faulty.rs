@@ -1,4 +1,4 @@
-//! A disk that fails: the real one, with one operation or all from one on going wrong.
+//! A disk that fails: the real one, on which one operation, or all from one on, go wrong.
 
 use nephrite_formats::publish::{Disk, Storage};
 use std::cell::{Cell, RefCell};
@@ -14,14 +14,14 @@ use std::rc::Rc;
 pub enum Fault {
     /// One operation fails; a failing write has written half of its bytes.
     Error,
-    /// One write takes half of its bytes and says so, which is no fault at all.
+    /// One write takes half of its bytes and says so, which is allowed.
     ShortWrite,
-    /// From one operation on there is no room: writes fail, all else works.
+    /// From one operation on there is no space: writes fail, everything else works.
     Full,
-    /// One write says it has written and has not, or not what it was given.
+    /// One write reports success and has written nothing, or other bytes.
     LostWrite,
-    /// From one operation on nothing happens any more: the process was killed or the power is gone. What was not synced is
-    /// half there.
+    /// From one operation on nothing happens: the process was killed or the power failed. Of what
+    /// was not synced, half is there.
     Crash,
 }
 
@@ -41,7 +41,7 @@ struct State {
     unsynced: RefCell<BTreeSet<PathBuf>>,
 }
 
-/// An open file of it.
+/// An open file of this disk.
 #[derive(Debug)]
 pub struct FaultyFile {
     file: File,
@@ -66,7 +66,7 @@ impl Faulty {
         self.state.struck.get()
     }
 
-    /// After a crash: leaves of what was never synced only a half, and that wrong.
+    /// After a crash: of every file that was never synced only half is left, with wrong bytes.
     pub fn lose_unsynced(&self) {
         for path in self.state.unsynced.borrow().iter().filter(|path| path.exists()) {
             let len = path.metadata().unwrap().len();

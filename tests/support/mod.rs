@@ -1,4 +1,4 @@
-//! What several test files share.
+//! Shared by several test files.
 #![allow(dead_code, reason = "each test file uses its part")]
 #![allow(unreachable_pub, reason = "a test file is no library")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -26,14 +26,14 @@ pub fn file_bytes_with(mesh: &TriangleMesh, history: &History<3>, options: &Stor
     stream.into_inner()
 }
 
-/// A triangle by its corners' positions, from the least corner on, so that orientation stays.
+/// A triangle by the positions of its corners, from the smallest corner on, in its orientation.
 pub fn canonical(mesh: &TriangleMesh, triangle: [u32; 3]) -> [[u32; 3]; 3] {
     let corners = triangle.map(|v| mesh.positions[v as usize].map(f32::to_bits));
     let least = (0..3).min_by_key(|&i| corners[i]).unwrap();
     std::array::from_fn(|i| corners[(least + i) % 3])
 }
 
-/// The triangles of a mesh as a sorted list that does not depend on the numbering of vertices.
+/// The triangles of a mesh as a sorted list that does not depend on vertex numbers.
 pub fn triangle_set(mesh: &TriangleMesh) -> Vec<[[u32; 3]; 3]> {
     let mut triangles: Vec<_> = mesh.triangles.iter().map(|&triangle| canonical(mesh, triangle)).collect();
     triangles.sort_unstable();
@@ -65,8 +65,8 @@ pub fn assert_levels_equal_scans(lod: &Lod, mesh: &TriangleMesh, history: &Histo
     }
 }
 
-/// Makes this thread the only one of its pool, so that nothing runs elsewhere while that lasts: interpreters that check each access follow
-/// the code here, but not how a pool hands it out.
+/// Makes this thread the only one of its pool. Interpreters that check each access to memory follow
+/// the code here, but not the way in which a pool distributes it.
 pub fn on_this_thread() -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().unwrap()
 }

@@ -1,11 +1,12 @@
-//! Histories that look like a decimation's, in time linear in their size: interior vertices of a bumpy grid are removed in
-//! random order, and each hole is filled by a fan from a corner of it. Combinatorially a decimation; nobody looked at
-//! the geometry.
+//! Histories like those of a decimation, made in time linear in their size: interior vertices of a
+//! bumpy grid are removed in random order, and each hole is filled by a fan from one of its
+//! corners. It is a decimation combinatorially; geometry plays no part.
 
 use nephrite::history::{History, NEVER};
 use nephrite::{Attribute, ScalarType, TriangleMesh};
 
-/// SplitMix64 (G. Steele, D. Lea, C. Flood: "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// SplitMix64 (G. Steele, D. Lea, C. Flood: "Fast splittable pseudorandom number generators",
+/// OOPSLA 2014).
 pub struct Random(pub u64);
 
 impl Random {
@@ -67,7 +68,8 @@ pub fn decimate(mesh: &TriangleMesh, n_removals: usize, seed: u64) -> History<3>
     }
     let mut candidates: Vec<u32> = (0..n_vertices as u32).collect();
     let mut n_before = usize::MAX;
-    // What cannot be removed now may be after its neighbours; a round without success ends it.
+    // A vertex that cannot be removed now may be removable after its neighbours; a round without a
+    // removal ends it.
     while candidates.len() < n_before {
         n_before = candidates.len();
         for last in (1..n_before).rev() {
@@ -80,7 +82,8 @@ pub fn decimate(mesh: &TriangleMesh, n_removals: usize, seed: u64) -> History<3>
     history
 }
 
-/// Gives some vertices a successor: from a random step of its life on, a vertex is another one at a place nearby.
+/// Gives some vertices a successor: from a random step of its life on, a vertex is replaced by
+/// another one nearby.
 pub fn succeed(mesh: &mut TriangleMesh, history: &mut History<3>, seed: u64) {
     let mut random = Random(seed);
     history.vertex_birth = vec![0; mesh.positions.len()];
@@ -103,7 +106,8 @@ pub fn succeed(mesh: &mut TriangleMesh, history: &mut History<3>, seed: u64) {
     }
 }
 
-/// Cuts the lifetimes of a vertex's triangles at `step` and gives the later parts to its successor.
+/// Cuts the lifetimes of the triangles of a vertex at `step` and gives the later parts to its
+/// successor.
 fn hand_over(history: &mut History<3>, vertex: u32, successor: u32, step: u32) {
     for id in 0..history.simplices.len() {
         let triangle = history.simplices[id];
@@ -155,7 +159,7 @@ fn remove(history: &mut History<3>, stars: &mut [Vec<u32>], vertex: u32, random:
     true
 }
 
-/// The polygon around an interior vertex, or `None` where its triangles do not form one closed fan.
+/// The polygon around an interior vertex; `None` if its triangles do not form one closed fan.
 fn ring(triangles: &[[u32; 3]], star: &[u32], vertex: u32) -> Option<Vec<u32>> {
     let edges: Vec<(u32, u32)> = star
         .iter()
