@@ -44,6 +44,10 @@ pub struct TetrahedronRepairReport {
     pub tetrahedra_inverted: usize,
     /// Faces of three tetrahedra or more, or of two on the same side, whose corners stay where they are.
     pub faces_crowded: usize,
+    /// Values of fields that are not a number (NaN), kept. Deviations of their fields are over the other values.
+    pub values_nan: usize,
+    /// Values of fields that are infinite, kept. Deviations of their fields are over the other values.
+    pub values_infinite: usize,
 }
 
 /// Applies the rules of this module. O(n log n).
@@ -58,6 +62,9 @@ pub fn repair_tetrahedra(input: &TetrahedronMesh) -> (TetrahedronMesh, Tetrahedr
     report.tetrahedra_flat = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) == 0.0).count();
     report.tetrahedra_inverted = mesh.tetrahedra.iter().filter(|&&t| mesh.six_volumes(t) < 0.0).count();
     report.faces_crowded = Sides::new(&mesh.tetrahedra, mesh.positions.len()).misfits.len();
+    let values = || mesh.attributes.iter().flat_map(Attribute::values);
+    report.values_nan = values().filter(|value| value.is_nan()).count();
+    report.values_infinite = values().filter(|value| value.is_infinite()).count();
     (mesh, report)
 }
 

@@ -1,9 +1,10 @@
 //! Fields carried along: their values at fusion points, and how far they have come from those of the input.
 
 use super::neighbourhood::Neighbourhood;
-use crate::geometry::vector::{Vector, cross, dot, sub};
+use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Tetrahedra;
 use nephrite_formats::{Attribute, ScalarType};
+use std::ops::Range;
 
 /// The fields of a mesh in `f64`.
 #[derive(Clone, Debug, Default)]
@@ -17,11 +18,10 @@ pub(super) struct Fields {
     deviations: Vec<f64>,
     /// The components that the metric weighs.
     columns: Vec<Column>,
-    /// Whether other components vary.
-    is_interpolated: bool,
+    /// Other components of numbers that are not whole, if they vary.
+    interpolated: Vec<usize>,
     /// The largest deviation of each field anywhere so far.
     pub worst: Vec<f64>,
-    scratch: Vec<f64>,
 }
 
 /// One field.
@@ -29,7 +29,15 @@ pub(super) struct Fields {
 struct Shape {
     name: String,
     scalar: ScalarType,
-    n_components: usize,
+    /// Its components, among all `n_values`.
+    places: Range<usize>,
+}
+
+impl Shape {
+    /// Whether its values are labels or counts: a new vertex gets one of those that it replaces, and never a mean.
+    fn is_whole(&self) -> bool {
+        !matches!(self.scalar, ScalarType::F32 | ScalarType::F64)
+    }
 }
 
 /// A component that varies, among all `n_values`.
@@ -38,40 +46,55 @@ struct Column {
     place: usize,
     /// Makes the range of its field the length asked for.
     scale: f64,
-    /// Least and largest value in the input.
+    /// Least and largest finite value in the input.
     range: [f64; 2],
+    /// Whether a new vertex gets the metric's best value: not in whole numbers, nor where values are not finite.
+    is_fitted: bool,
+}
+
+impl Column {
+    /// A value as the metric weighs it. One that is not finite counts as the middle of the range.
+    fn scaled(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        self.scale * if value.is_finite() { value } else { low + 0.5 * (high - low) }
+    }
 }
 
 impl Fields {
     /// The fields of a mesh of `n_vertices` vertices; to the metric, the range of each is worth `length`, and with a length of zero
-    /// nothing. Fields that do not vary, or have values that are not finite, are left out there.
+    /// nothing. Fields that do not vary are left out there.
     pub(super) fn new(attributes: &[Attribute], n_vertices: usize, length: f64) -> Self {
-        let shapes: Vec<Shape> = attributes
-            .iter()
-            .map(|a| Shape { name: a.name.clone(), scalar: a.scalar, n_components: a.n_components as usize })
-            .collect();
-        let n_values = shapes.iter().map(|shape| shape.n_components).sum();
+        let mut n_values = 0;
+        let shapes = attributes.iter().map(|a| {
+            let first = n_values;
+            n_values += a.n_components as usize;
+            Shape { name: a.name.clone(), scalar: a.scalar, places: first..n_values }
+        });
+        let shapes: Vec<Shape> = shapes.collect();
         let mut values = vec![0.0; n_values * n_vertices];
-        let mut first = 0;
         for (attribute, shape) in attributes.iter().zip(&shapes) {
-            for (i, value) in attribute.values().enumerate() {
-                let (vertex, component) = (i / shape.n_components, i % shape.n_components);
-                values[vertex * n_values + first + component] = value;
+            let mut attribute = attribute.values();
+            for row in values.chunks_exact_mut(n_values) {
+                row[shape.places.clone()]
+                    .iter_mut()
+                    .zip(&mut attribute)
+                    .for_each(|(place, value)| *place = value);
             }
-            first += shape.n_components;
         }
         let n_fields = shapes.len();
         let columns = columns(&shapes, n_values, &values, length);
-        let n_varying = (0..n_values).filter(|&place| is_varying(range(&values, n_values, place))).count();
+        let is_fitted =
+            |place| columns.iter().any(|column: &Column| column.is_fitted && column.place == place);
+        let floats = shapes.iter().filter(|shape| !shape.is_whole()).flat_map(|shape| shape.places.clone());
+        let interpolated = floats.filter(|&place| !is_fitted(place) && !is_same(&values, n_values, place));
         Self {
-            is_interpolated: n_varying > columns.len(),
+            interpolated: interpolated.collect(),
             columns,
             shapes,
             n_values,
             values,
             deviations: vec![0.0; n_fields * n_vertices],
             worst: vec![0.0; n_fields],
-            scratch: Vec::new(),
         }
     }
 
@@ -88,19 +111,20 @@ impl Fields {
     /// The values that the metric weighs, scaled: their number per vertex, and those of all vertices.
     pub(super) fn scaled(&self) -> (usize, Vec<f64>) {
         let rows = self.values.chunks_exact(self.n_values.max(1));
-        let scaled = rows.flat_map(|row| self.columns.iter().map(|column| column.scale * row[column.place]));
+        let scaled = rows.flat_map(|row| self.columns.iter().map(|column| column.scaled(row[column.place])));
         (self.columns.len(), scaled.collect())
     }
 
     /// A value that the metric weighs, scaled.
     pub(super) fn scaled_value(&self, v: u32, i: usize) -> f64 {
         let column = &self.columns[i];
-        column.scale * self.values[v as usize * self.n_values + column.place]
+        column.scaled(self.values[v as usize * self.n_values + column.place])
     }
 
-    /// Values at `p` for a vertex that takes the place of `fused`. At the place of one of them they are its own, so that what holds at a
-    /// boundary goes on to hold there. Elsewhere they are interpolated in the tetrahedron that holds `p`, and those that the metric
-    /// weighs are its best ones, within the range of the input: values of single vertices stand for ever fewer of the input's.
+    /// Values at `p` for a vertex that takes the place of `fused`. At the place of one of them they are its own, so that what holds
+    /// at a boundary goes on to hold there. Elsewhere whole numbers are those of the nearest of `fused`; other numbers that the
+    /// metric weighs are its best ones, within the range of the input: values of single vertices stand for ever fewer of the
+    /// input's. The rest is interpolated in the tetrahedron that holds `p`.
     pub(super) fn add_vertex(
         &mut self,
         mesh: &Tetrahedra,
@@ -109,48 +133,36 @@ impl Fields {
         p: [f32; 3],
         best_value: impl Fn(usize) -> Option<f64>,
     ) {
-        let Some(&first) = fused.first().filter(|_| self.n_values > 0) else { return };
+        let place = p.map(f64::from);
+        let distance_sq = |v: u32| length_sq(sub(mesh.position(v), place));
+        let nearest = fused.iter().copied().min_by(|&v, &w| distance_sq(v).total_cmp(&distance_sq(w)));
+        let Some(nearest) = nearest.filter(|_| self.n_values > 0) else { return };
         let start = self.values.len();
-        if let Some(&same) = fused.iter().find(|&&v| mesh.positions()[v as usize] == p) {
-            let row = same as usize * self.n_values;
-            self.values.extend_from_within(row..row + self.n_values);
+        let row = nearest as usize * self.n_values;
+        self.values.extend_from_within(row..row + self.n_values);
+        if mesh.positions()[nearest as usize] == p {
             return;
         }
-        // Components that do not vary have the same value everywhere.
-        let row = first as usize * self.n_values;
-        self.values.extend_from_within(row..row + self.n_values);
-        if self.is_interpolated || best_value(0).is_none() {
-            self.interpolate_last(mesh, neighbourhood, p.map(f64::from));
+        let has_best = best_value(0).is_some();
+        let is_interpolated = !self.interpolated.is_empty() || !has_best;
+        let found = if is_interpolated { tetrahedron_at(mesh, neighbourhood, place) } else { None };
+        if let Some((corners, weights)) = found {
+            let unfitted = self.columns.iter().filter(|column| column.is_fitted && !has_best);
+            for place in self.interpolated.iter().copied().chain(unfitted.map(|column| column.place)) {
+                self.values[start + place] = self.interpolated(corners, weights, place);
+            }
         }
-        let new = &mut self.values[start..];
-        for (i, column) in self.columns.iter().enumerate() {
+        for (i, column) in self.columns.iter().enumerate().filter(|(_, column)| column.is_fitted) {
             if let Some(value) = best_value(i) {
                 let [low, high] = column.range;
-                new[column.place] = (value / column.scale).clamp(low, high);
+                self.values[start + column.place] = (value / column.scale).clamp(low, high);
             }
         }
     }
 
-    /// Gives the last vertex the values that the mesh before the fusion has at `p`.
-    fn interpolate_last(&mut self, mesh: &Tetrahedra, neighbourhood: &Neighbourhood, p: Vector) {
-        let affected = neighbourhood.affected.iter().map(|affected| affected.slot);
-        let slots = neighbourhood.deleted.iter().copied().chain(affected);
-        let mut best = None;
-        let mut best_inside = f64::NEG_INFINITY;
-        for corners in slots.filter_map(|slot| mesh.get(slot)) {
-            let Some(weights) = barycentric(p, corners.map(|v| mesh.position(v))) else { continue };
-            let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
-            if inside > best_inside {
-                (best_inside, best) = (inside, Some((corners, weights)));
-            }
-            if inside >= 0.0 {
-                break;
-            }
-        }
-        let Some((corners, weights)) = best else { return };
-        let last = self.values.len() - self.n_values;
-        let (old, new) = self.values.split_at_mut(last);
-        interpolate(old, self.n_values, corners, weights, new);
+    /// A component inside a tetrahedron.
+    fn interpolated(&self, corners: [u32; 4], weights: [f64; 4], place: usize) -> f64 {
+        interpolate(corners.map(|v| self.values[v as usize * self.n_values + place]), weights)
     }
 
     /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their values are from those that the
@@ -171,24 +183,15 @@ impl Fields {
         let p = mesh.position(new);
         for &v in fused {
             let x = mesh.position(v);
-            self.scratch.clear();
-            self.scratch.resize(self.n_values, 0.0);
-            if x == p {
-                self.scratch.copy_from_slice(&self.values[new as usize * self.n_values..][..self.n_values]);
-            } else if let Some((corners, weights)) = cone_at(mesh, neighbourhood, p, x, new) {
-                interpolate(&self.values, self.n_values, corners, weights, &mut self.scratch);
+            let there = if x == p {
+                Some(([new; 4], [1.0, 0.0, 0.0, 0.0]))
             } else {
-                continue;
-            }
-            let mut first = 0;
-            for (field, shape) in self.shapes.iter().enumerate() {
-                let there = &self.values[v as usize * self.n_values + first..][..shape.n_components];
-                let here = &self.scratch[first..][..shape.n_components];
-                first += shape.n_components;
-                let difference_sq: f64 = there.iter().zip(here).map(|(a, b)| (a - b) * (a - b)).sum();
-                // Values may be so far apart that no number tells how far.
-                let deviation =
-                    (self.deviations[v as usize * n_fields + field] + difference_sq.sqrt()).min(f64::MAX);
+                cone_at(mesh, neighbourhood, p, x, new)
+            };
+            let Some((corners, weights)) = there else { continue };
+            for field in 0..n_fields {
+                let before = self.deviations[v as usize * n_fields + field];
+                let deviation = self.deviation(field, before, v, (corners, weights));
                 let own = &mut self.deviations[start + field];
                 *own = own.max(deviation);
                 self.worst[field] = self.worst[field].max(deviation);
@@ -196,67 +199,118 @@ impl Fields {
         }
     }
 
+    /// The deviation of a field at a vertex that had `before` and now is inside a tetrahedron. In whole numbers it is 1 where the
+    /// value is not that of the nearest corner; in others the difference is added, without components that are not finite.
+    fn deviation(&self, field: usize, before: f64, v: u32, (corners, weights): ([u32; 4], [f64; 4])) -> f64 {
+        let shape = &self.shapes[field];
+        let row = |v: u32| &self.values[v as usize * self.n_values..][..self.n_values];
+        if shape.is_whole() {
+            let nearest = corners[largest(weights)];
+            let differs = row(v)[shape.places.clone()] != row(nearest)[shape.places.clone()];
+            return before.max(f64::from(u8::from(differs)));
+        }
+        let pairs =
+            shape.places.clone().map(|place| [row(v)[place], self.interpolated(corners, weights, place)]);
+        let finite = pairs.filter(|pair| pair.iter().all(|value| value.is_finite()));
+        let difference_sq: f64 = finite.map(|[a, b]| (a - b) * (a - b)).sum();
+        // Values may be so far apart that no number tells how far.
+        (before + difference_sq.sqrt()).min(f64::MAX)
+    }
+
     /// The fields of all vertices as attributes, rounded to the types they came in.
     pub(super) fn into_attributes(self) -> Vec<Attribute> {
-        let n_values = self.n_values.max(1);
-        let mut first = 0;
-        let mut attributes = Vec::new();
-        for shape in &self.shapes {
-            let range = first..first + shape.n_components;
-            first = range.end;
-            let values =
-                self.values.chunks_exact(n_values).flat_map(|row| row[range.clone()].iter().copied());
-            attributes.push(Attribute::from_values(
-                shape.name.clone(),
-                shape.scalar,
-                u32::try_from(shape.n_components).unwrap_or(u32::MAX),
-                values,
-            ));
-        }
-        attributes
+        let rows = || self.values.chunks_exact(self.n_values.max(1));
+        let attribute = |Shape { name, scalar, places }: &Shape| {
+            let values = rows().flat_map(|row| row[places.clone()].iter().copied());
+            let n_components = u32::try_from(places.len()).unwrap_or(u32::MAX);
+            Attribute::from_values(name.clone(), *scalar, n_components, values)
+        };
+        self.shapes.iter().map(attribute).collect()
     }
 }
 
 /// The components that the metric weighs, the widest of each field scaled to a range of `length`.
 fn columns(shapes: &[Shape], n_values: usize, values: &[f64], length: f64) -> Vec<Column> {
     let mut columns = Vec::new();
-    let mut first = 0;
     for shape in shapes {
-        let components = first..first + shape.n_components;
-        first = components.end;
-        let ranges: Vec<[f64; 2]> = components.clone().map(|place| range(values, n_values, place)).collect();
+        let places = shape.places.clone();
+        let ranges: Vec<[f64; 2]> = places.clone().map(|place| range(values, n_values, place)).collect();
         let widest = ranges.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-        if widest > 0.0 && widest.is_finite() && length > 0.0 {
-            let varying = components.zip(ranges).filter(|&(_, range)| is_varying(range));
-            columns.extend(varying.map(|(place, range)| Column { place, scale: length / widest, range }));
+        let scale = length / widest;
+        if widest > 0.0 && widest.is_finite() && scale > 0.0 && scale.is_finite() {
+            let varying = places.zip(ranges).filter(|(_, [low, high])| high > low);
+            columns.extend(varying.map(|(place, range)| {
+                let is_fitted = !shape.is_whole() && component(values, n_values, place).all(f64::is_finite);
+                Column { place, scale, range, is_fitted }
+            }));
         }
     }
     columns
 }
 
-/// Least and largest value of a component; of infinite distance where one is not finite.
+/// One component of all vertices.
+fn component(values: &[f64], n_values: usize, place: usize) -> impl Iterator<Item = f64> {
+    values.iter().skip(place).step_by(n_values).copied()
+}
+
+/// Least and largest finite value of a component; the wrong way round where there is none.
 fn range(values: &[f64], n_values: usize, place: usize) -> [f64; 2] {
-    let values = values.iter().skip(place).step_by(n_values);
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
-        if value.is_finite() { [low.min(value), high.max(value)] } else { [f64::NEG_INFINITY, f64::INFINITY] }
-    })
+    let finite = component(values, n_values, place).filter(|value| value.is_finite());
+    finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
-fn is_varying([low, high]: [f64; 2]) -> bool {
-    high > low
+/// Whether a component has the same bits at all vertices.
+fn is_same(values: &[f64], n_values: usize, place: usize) -> bool {
+    let mut bits = component(values, n_values, place).map(f64::to_bits);
+    bits.next().is_none_or(|first| bits.all(|other| other == first))
 }
 
-fn interpolate(values: &[f64], n_values: usize, corners: [u32; 4], weights: [f64; 4], into: &mut [f64]) {
-    into.fill(0.0);
-    // About one corner: a field that is constant there stays so to the last bit.
-    let base = &values[corners[0] as usize * n_values..][..n_values];
-    for (&v, weight) in corners.iter().zip(weights).skip(1) {
-        let row = &values[v as usize * n_values..][..n_values];
-        for ((sum, value), base) in into.iter_mut().zip(row).zip(base) {
-            *sum += weight * (value - base);
+/// The value inside a tetrahedron. Where values at corners are not finite, the nearest corner decides: a value that is not finite
+/// stays, and one that is counts with the other finite ones.
+fn interpolate(values: [f64; 4], weights: [f64; 4]) -> f64 {
+    if values.iter().all(|value| value.is_finite()) {
+        // About one corner: a field that is constant there stays so to the last bit.
+        let sum: f64 = (1..4).map(|i| weights[i] * (values[i] - values[0])).sum();
+        let value = sum + values[0];
+        // Differences of the largest numbers are none.
+        let mean = || values.iter().zip(weights).map(|(value, weight)| weight * value).sum::<f64>();
+        return if value.is_finite() { value } else { mean().clamp(-f64::MAX, f64::MAX) };
+    }
+    let nearest = largest(weights);
+    if !values[nearest].is_finite() {
+        return values[nearest];
+    }
+    let finite = || values.iter().zip(weights).filter(|(value, _)| value.is_finite());
+    let sum: f64 = finite().map(|(_, weight)| weight.max(0.0)).sum();
+    finite().map(|(value, weight)| weight.max(0.0) / sum * value).sum()
+}
+
+/// The corner with the largest weight, the first of several.
+fn largest(weights: [f64; 4]) -> usize {
+    (1..4).fold(0, |largest, i| if weights[i] > weights[largest] { i } else { largest })
+}
+
+/// The tetrahedron of those before a fusion that holds `p`, or that it is least outside of, with its coordinates there.
+fn tetrahedron_at(
+    mesh: &Tetrahedra,
+    neighbourhood: &Neighbourhood,
+    p: Vector,
+) -> Option<([u32; 4], [f64; 4])> {
+    let affected = neighbourhood.affected.iter().map(|affected| affected.slot);
+    let slots = neighbourhood.deleted.iter().copied().chain(affected);
+    let mut best = None;
+    let mut best_inside = f64::NEG_INFINITY;
+    for corners in slots.filter_map(|slot| mesh.get(slot)) {
+        let Some(weights) = barycentric(p, corners.map(|v| mesh.position(v))) else { continue };
+        let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
+        if inside > best_inside {
+            (best_inside, best) = (inside, Some((corners, weights)));
+        }
+        if inside >= 0.0 {
+            break;
         }
     }
-    into.iter_mut().zip(base).for_each(|(sum, base)| *sum += base);
+    best
 }
 
 /// How far outside a tetrahedron, in its coordinates, its field is taken to go on.

@@ -170,8 +170,11 @@ impl Metric {
     }
 
     /// The scaled value of a field that is best for a fusion of these vertices at a point of the quadrics' coordinates: the mean of
-    /// what the field's pieces around them say there. `None` where none of them has a volume.
+    /// what the field's pieces around them say there. `None` where none of them has a volume, and for a field that is not weighed.
     pub(super) fn best_value(&self, vertices: &[u32], field: usize, p: Vector) -> Option<f64> {
+        if field >= self.n_fields {
+            return None;
+        }
         let mut weight = 0.0;
         let mut sum = 0.0;
         for &v in vertices {
