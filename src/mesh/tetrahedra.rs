@@ -5,7 +5,6 @@
 //! the end of the pool, once.
 
 use crate::geometry::vector::{cross, dot, sub};
-use nephrite_formats::TetrahedronMesh;
 
 /// Corners of the face opposite each corner, counter-clockwise seen from outside a tetrahedron of positive volume.
 pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
@@ -40,10 +39,8 @@ struct Star {
 }
 
 impl Tetrahedra {
-    /// The tetrahedra of a mesh, each in the slot of its index. No two share all four corners. O(n).
-    pub fn new(mesh: &TetrahedronMesh) -> Self {
-        let positions = mesh.positions.clone();
-        let corners = mesh.tetrahedra.clone();
+    /// Tetrahedra over vertices at these positions, each in the slot of its index. No two share all four corners. O(n).
+    pub fn new(positions: Vec<[f32; 3]>, corners: Vec<[u32; 4]>) -> Self {
         let mut stars = vec![Star::default(); positions.len()];
         for &v in corners.as_flattened() {
             stars[v as usize].len += 1;

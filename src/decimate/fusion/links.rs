@@ -66,14 +66,11 @@ fn is_one_piece(triangles: &[[u32; 3]]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nephrite_formats::TetrahedronMesh;
 
     fn irregular_of(tetrahedra: &[[u32; 4]]) -> Vec<u32> {
         let positions =
             (0..10_u8).map(|i| [f32::from(i), f32::from(i * i % 7), f32::from(i * 3 % 5)]).collect();
-        let mesh =
-            TetrahedronMesh { positions, tetrahedra: tetrahedra.to_vec(), ..TetrahedronMesh::default() };
-        let mesh = Tetrahedra::new(&mesh);
+        let mesh = Tetrahedra::new(positions, tetrahedra.to_vec());
         let mut rims = vec![vec![]; 10];
         for [a, b, c] in mesh.boundary() {
             [(a, [b, c]), (b, [c, a]), (c, [a, b])]

@@ -30,6 +30,7 @@ mod prey;
 mod queue;
 mod run;
 mod state;
+mod unit;
 
 pub(crate) use fields::barycentric;
 pub use options::FusionOptions;

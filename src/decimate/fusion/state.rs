@@ -8,6 +8,7 @@ use super::neighbourhood::Neighbourhood;
 use super::options::FusionOptions;
 use super::patch::Patch;
 use super::prey::Prey;
+use super::unit::Unit;
 use crate::decimate::{Decimated, Input};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::vector::{Vector, max};
@@ -21,8 +22,10 @@ const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 /// [`State::fine_error`] in parts of the bounding box diagonal.
 const FINE_ERROR: f64 = 0.0005;
 
-/// The mesh in the middle of its fusion.
+/// The mesh in the middle of its fusion. Lengths are in units of `unit`; those of the input and of the recorder are in mesh
+/// units.
 pub(super) struct State {
+    unit: Unit,
     pub mesh: Tetrahedra,
     pub metric: Metric,
     pub creases: Creases,
@@ -68,27 +71,29 @@ impl State {
     /// The state at step 0. O(n).
     pub(super) fn new(input: Input<TetrahedronMesh>, options: &FusionOptions) -> Self {
         let Input { mesh, max_error, cos_feature_angle } = input;
-        let tetrahedra = Tetrahedra::new(&mesh);
-        let bounds = Bounds::around_positions(&mesh.positions);
+        let unit = Unit::new(Bounds::around_positions(&mesh.positions).diagonal());
+        let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|&p| unit.point_to_unit(p)).collect();
+        let bounds = Bounds::around_positions(&positions);
+        let tetrahedra = Tetrahedra::new(positions, mesh.tetrahedra.clone());
         let field_range = options.field_weight * bounds.diagonal();
         let fields = Fields::new(&mesh.attributes, mesh.positions.len(), field_range);
         let (n_scaled, scaled) = fields.scaled();
         let metric = Metric::new(&tetrahedra, bounds.center(), n_scaled, &scaled);
         let recorder = Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding);
-        let six_volumes: f64 = mesh.tetrahedra.iter().map(|&t| mesh.six_volumes(t)).sum();
+        let six_volumes: f64 = tetrahedra.iter().map(|(slot, _)| tetrahedra.six_volumes(slot)).sum();
         let six_volumes_to_lose = options.volume_loss * six_volumes.abs();
         Self {
             creases: Creases::new(&tetrahedra, cos_feature_angle),
             recorder,
             touched: vec![0; mesh.positions.len()],
-            errors: vec![mesh.rounding; mesh.positions.len()],
+            errors: vec![unit.to_unit(mesh.rounding); mesh.positions.len()],
             quadric_distances: vec![0.0],
             field_deviations: vec![vec![0.0]; fields.len()],
             slack: SLACK
                 * max(bounds.low.map(f64::abs), bounds.high.map(f64::abs)).into_iter().fold(0.0, f64::max),
             six_volumes_to_lose,
             six_volumes_left: six_volumes_to_lose,
-            max_error: max_error.unwrap_or(f64::INFINITY),
+            max_error: unit.to_unit(max_error.unwrap_or(f64::INFINITY)),
             fine_error: FINE_ERROR * bounds.diagonal(),
             mesh: tetrahedra,
             metric,
@@ -97,6 +102,7 @@ impl State {
             patch: Patch::default(),
             n_fusions: 0,
             input: mesh,
+            unit,
         }
     }
 
@@ -109,7 +115,7 @@ impl State {
     /// Makes a fusion whose neighbourhood is gathered; `changed` hears of every slot with new corners. Returns the new vertex.
     pub(super) fn fuse(&mut self, prey: &Prey, accepted: &Accepted, mut changed: impl FnMut(u32)) -> u32 {
         let quadric = self.metric.of(prey.vertices());
-        self.recorder.step(accepted.error);
+        self.recorder.step(self.unit.to_mesh(accepted.error));
         let local = self.metric.local(accepted.point.map(f64::from));
         let best = |field| self.metric.best_value(prey.vertices(), field, local);
         self.fields.add_vertex(&self.mesh, &self.neighbourhood, prey.vertices(), accepted.point, best);
@@ -149,7 +155,7 @@ impl State {
         let [xx, _, _, yy, _, zz] = quadric.a;
         let squared = quadric.at(self.metric.local(p)).max(0.0) / (xx + yy + zz).max(f64::MIN_POSITIVE);
         let last = self.quadric_distances.last().copied().unwrap_or(0.0);
-        self.quadric_distances.push(last.max(squared.sqrt()));
+        self.quadric_distances.push(last.max(self.unit.to_mesh(squared.sqrt())));
         for (values, &worst) in self.field_deviations.iter_mut().zip(&self.fields.worst) {
             values.push(worst);
         }
@@ -162,8 +168,10 @@ impl State {
         let names = std::iter::once("planar quadric").chain(self.fields.names()).map(str::to_owned);
         let values = std::iter::once(self.quadric_distances).chain(self.field_deviations);
         history.deviations = names.zip(values).map(|(name, values)| Deviation { name, values }).collect();
+        let born = &self.mesh.positions()[self.input.positions.len()..];
+        let born = born.iter().map(|&p| self.unit.point_to_mesh(p));
         let mesh = TetrahedronMesh {
-            positions: self.mesh.positions().to_vec(),
+            positions: self.input.positions.iter().copied().chain(born).collect(),
             attributes: self.fields.into_attributes(),
             ..self.input
         };
