@@ -134,7 +134,7 @@ fn of_the_directory() {
     assert_eq!(refused(|r| r[5].bytes = u64::MAX), NephError::TooLarge);
     let mut bytes = valid_file();
     bytes[HEADER_BYTES + 13 * SECTION_RECORD_BYTES] = 1;
-    assert_eq!(refusal(&bytes), NephError::Reserved { place: "the padding behind the directory" });
+    assert_eq!(refusal(&bytes), NephError::Reserved { place: "the padding after the directory" });
 }
 
 #[test]

@@ -38,7 +38,7 @@ pub enum HistoryError {
         before: f64,
     },
     /// A deviation is negative, not finite or falling, or has another length than the errors.
-    #[error("deviation {deviation} is not one number per step that never falls")]
+    #[error("deviation {deviation} is not a finite number per step that never falls")]
     Deviation {
         /// Which one.
         deviation: usize,
@@ -56,7 +56,7 @@ pub enum HistoryError {
         n_steps: u32,
     },
     /// A simplex uses a vertex that dies before it.
-    #[error("simplex {simplex} lives until step {death}, its vertex {vertex} until {vertex_death:?}")]
+    #[error("simplex {simplex} lives until step {death}, its vertex {vertex} {}", lives(*.vertex_death))]
     Vertex {
         /// Which simplex.
         simplex: u32,
@@ -98,7 +98,7 @@ pub enum HistoryError {
         n_steps: u32,
     },
     /// A level has more simplices than the one before it.
-    #[error("step {step} has {found} simplices, more than the {before} of the level before it")]
+    #[error("step {step} has {found} simplices, the level before it has {before}")]
     Grows {
         /// Step of the level.
         step: u32,
@@ -107,6 +107,11 @@ pub enum HistoryError {
         /// Simplices alive at the level before.
         before: u32,
     },
+}
+
+/// Until when a vertex lives, as part of a message.
+fn lives(death: Option<u32>) -> String {
+    death.map_or("does not exist".to_owned(), |death| format!("until step {death}"))
 }
 
 impl<const CORNERS: usize> History<CORNERS> {

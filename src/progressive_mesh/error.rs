@@ -8,7 +8,7 @@ pub enum StreamError {
     #[error("only the progressive decimator leaves operations")]
     NoOperations,
     /// The bytes are not the beginning of a stream of this version.
-    #[error("an operation stream begins with {expected:08x}, found {found:08x}")]
+    #[error("operation stream begins with {found:08x}, expected {expected:08x}")]
     Magic {
         /// First four bytes.
         found: u32,
@@ -26,7 +26,7 @@ pub enum StreamError {
         expected: u32,
     },
     /// A block holds too little or too much for its operations.
-    #[error("block {block} has {what} for {found} where {expected} are needed")]
+    #[error("block {block} has {found} {what}, expected {expected}")]
     Block {
         /// Which block.
         block: usize,
@@ -38,7 +38,7 @@ pub enum StreamError {
         expected: u64,
     },
     /// An operation names something that does not exist.
-    #[error("operation {operation} names {what} {found} of {n_there}")]
+    #[error("operation {operation} names {what} {found}, there are {n_there}")]
     Name {
         /// Which operation.
         operation: usize,

@@ -136,7 +136,7 @@ impl Planes {
             }
             coded = &rest[coded_len..];
         }
-        if coded.is_empty() { Ok(planes) } else { Err(wrong("bytes behind its planes", coded.len(), 0)) }
+        if coded.is_empty() { Ok(planes) } else { Err(wrong("bytes after its planes", coded.len(), 0)) }
     }
 }
 

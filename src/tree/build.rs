@@ -20,7 +20,7 @@ pub enum TreeError {
         max: u64,
     },
     /// A lifetime reaches beyond the last level.
-    #[error("lifetime {id} ends at level {found} of {n_levels}")]
+    #[error("lifetime {id} ends at level {found}, there are {n_levels} levels")]
     BeyondLastLevel {
         /// Which lifetime.
         id: u32,

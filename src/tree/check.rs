@@ -19,7 +19,7 @@ pub enum TreeFault {
         n_runs: u64,
     },
     /// More runs than heights, or a run that belongs to no height that is left.
-    #[error("level {level} has a run from slot {start} that no node accounts for")]
+    #[error("level {level} has a run at slot {start} that belongs to no node")]
     ForeignRun {
         /// The level.
         level: u32,
@@ -43,7 +43,7 @@ pub enum TreeFault {
         end: u32,
     },
     /// No run reaches the last slots.
-    #[error("nodes end at slot {found} of {expected}")]
+    #[error("runs reach slot {found} of {expected}")]
     Coverage {
         /// Slots that the nodes cover.
         found: u32,

@@ -187,7 +187,7 @@ fn read_records(head: &[u8], header: &Header) -> Result<Vec<SectionRecord>, Neph
     }
     let padding = usize::try_from(align(head_bytes)).map_or(&[][..], |end| &head[..end.min(head.len())]);
     if padding.iter().skip(HEADER_BYTES + records.len() * SECTION_RECORD_BYTES).any(|&byte| byte != 0) {
-        return Err(NephError::Reserved { place: "the padding behind the directory" });
+        return Err(NephError::Reserved { place: "the padding after the directory" });
     }
     Ok(records)
 }

@@ -82,7 +82,7 @@ pub enum NephError {
     /// A field that must be zero is not.
     #[error("reserved bits of {place} are set")]
     Reserved {
-        /// `header`, `directory` or `the padding behind the directory`.
+        /// `header`, `directory` or `the padding after the directory`.
         place: &'static str,
     },
     /// The reader does not know a section it must understand.
