@@ -1,4 +1,5 @@
-//! Copying a cut out, beside `memcpy` of the same bytes and beside a linear scan that gathers the triangles.
+//! Copying a cut out, beside `memcpy` of the same bytes and beside a linear scan that gathers the
+//! triangles.
 
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on has failed")]
 #![allow(missing_docs, reason = "criterion's macros write undocumented functions")]

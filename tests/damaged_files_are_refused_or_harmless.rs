@@ -1,5 +1,5 @@
-//! Promise: any bytes end in a typed error or in answers that are bounded and in range; and no damage
-//! passes verification.
+//! Promise: any bytes end in a typed error or in answers that are bounded and in range; and no
+//! damage passes verification.
 //!
 //! All edits of all places take minutes. By default every 17th place is damaged, in every way;
 //! `NEPHRITE_STRIDE=1` damages every place.

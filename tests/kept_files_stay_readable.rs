@@ -1,8 +1,9 @@
 //! Promise: a file that one version has written is read by every later one, and means the same.
 //!
-//! `kept_files/` has a file of every form, as it was written when that form came to be, and `answers.txt` says what is in it. Neither is
-//! written anew: where this test fails, files that people have are lost. `KEEP=1 cargo test --test kept_files_stay_readable` adds
-//! files of forms of which none is kept yet.
+//! `kept_files/` has a file of every form, as it was written when that form came to be, and
+//! `answers.txt` says what is in it. Neither is written anew: where this test fails, files that
+//! people have are lost. `KEEP=1 cargo test --test kept_files_stay_readable` adds files of forms of
+//! which none is kept yet.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -87,7 +88,8 @@ fn volume_forms() -> Vec<Form> {
         .into()
 }
 
-/// What is at the corners of a level's simplices, positions and attributes, whatever the order of simplices and vertices.
+/// What is at the corners of a level's simplices, positions and attributes, whatever the order of
+/// simplices and vertices.
 fn contents<const CORNERS: usize>(
     simplices: &[[u32; CORNERS]],
     positions: &[[f32; 3]],
@@ -106,7 +108,8 @@ fn contents<const CORNERS: usize>(
         .iter()
         .map(|simplex| {
             let corners = simplex.map(corner);
-            // Even turns keep the orientation: of four corners those of the last three, of three all.
+            // Even turns keep the orientation: of four corners those of the last three, of three
+            // all.
             let (fixed, turning) = corners.split_at(CORNERS - 3);
             let least = (0..3).min_by_key(|&i| &turning[i]).unwrap();
             fixed.iter().chain((0..3).map(|i| &turning[(least + i) % 3])).flatten().copied().collect()

@@ -6,8 +6,8 @@ use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh};
 const MAX_CELLS: u32 = 400;
 
 /// The box [0, 1]^3 in `cells` hexahedra along each axis (each in `1..=400`), five tetrahedra per
-/// hexahedron. The cut alternates so that neighbours share their faces. The field `linear` is `1 +
-/// 2 x + 3 y - 4 z`, in `f64`.
+/// hexahedron. The cut alternates so that neighbours share their faces. The field `linear` is
+/// `1 + 2 x + 3 y - 4 z`, in `f64`.
 pub fn box_volume(cells: [u32; 3]) -> TetrahedronMesh {
     let cells = cells.map(|n| n.clamp(1, MAX_CELLS));
     let mut mesh = lattice(cells, |point| point);

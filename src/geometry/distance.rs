@@ -11,9 +11,9 @@
 //! and differences of them), with `eps = f64::EPSILON`:
 //! * every answer is the distance to a point *of* the triangle or segment, so it falls below the
 //!   true distance by at most `16 eps m`;
-//! * it exceeds the true distance by about as much, except that for a triangle with `sin(angle at
-//!   a) = s` the foot may be off sideways by `eps m / s`, and never by more than the radius of the
-//!   inscribed circle;
+//! * it exceeds the true distance by about as much, except that for a triangle with
+//!   `sin(angle at a) = s` the foot may be off sideways by `eps m / s`, and never by more than the
+//!   radius of the inscribed circle;
 //! * degenerate triangles and segments (collinear, coincident corners) need no case of their own.
 
 use super::vector::{Vector, add_scaled, cross, dot, length_sq, sub};

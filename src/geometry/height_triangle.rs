@@ -3,7 +3,8 @@
 use super::distance::{Triangle, point_triangle_distance_sq};
 use super::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
 
-/// A corner's angle whose sine is at least the root of this leaves a normal that is exact to a dozen digits.
+/// A corner's angle whose sine is at least the root of this leaves a normal that is exact to a
+/// dozen digits.
 const SOUND_SINE_SQ: f64 = 1e-6;
 
 /// A triangle with its normal. Cheaper to make than a
@@ -38,7 +39,8 @@ impl HeightTriangle {
         12.0 * self.normal_sq < (least * edges_sq).powi(2) || edges_sq <= 0.0
     }
 
-    /// Whether heights over it are as exact as other distances: to a dozen digits of the largest coordinate.
+    /// Whether heights over it are as exact as other distances: to a dozen digits of the largest
+    /// coordinate.
     pub fn is_sound(&self) -> bool {
         let [ab, ac] = self.edges;
         self.normal_sq > SOUND_SINE_SQ * length_sq(ab) * length_sq(ac)

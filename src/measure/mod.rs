@@ -1,13 +1,14 @@
 //! The distance between two surfaces: sampled like Metro's, and a bracket that is proven.
 //!
-//! The one-sided distance from a surface to another is the largest distance of a point of the one from the other; the
-//! Hausdorff distance is the larger of both directions. A one-sided distance can be zero while the other is large, so
-//! both are always measured. Samples alone give a mean and a lower bound; the upper bound comes from a proof over
-//! pieces of the surfaces.
+//! The one-sided distance from a surface to another is the largest distance of a point of the one
+//! from the other; the Hausdorff distance is the larger of both directions. A one-sided distance
+//! can be zero while the other is large, so both are always measured. Samples alone give a mean and
+//! a lower bound; the upper bound comes from a proof over pieces of the surfaces.
 //!
-//! References: Cignoni, Rocchini and Scopigno, *Metro: measuring error on simplified surfaces*, Computer Graphics Forum
-//! 17(2), 1998, for the sampling; Tang, Lee and Kim, *Interactive Hausdorff distance computation for general polygonal
-//! models*, ACM Transactions on Graphics 28(3), 2009, for a bracket by branch and bound.
+//! References: Cignoni, Rocchini and Scopigno, *Metro: measuring error on simplified surfaces*,
+//! Computer Graphics Forum 17(2), 1998, for the sampling; Tang, Lee and Kim, *Interactive Hausdorff
+//! distance computation for general polygonal models*, ACM Transactions on Graphics 28(3), 2009,
+//! for a bracket by branch and bound.
 
 mod batch;
 mod bvh;
@@ -39,18 +40,19 @@ use crate::geometry::vector::{self, Vector};
 
 /// Measures how far two surfaces are apart, both ways.
 ///
-/// Any two meshes can be compared: open, non-manifold, intersecting themselves, with triangles without area, with
-/// different origins. Vertices that no triangle uses are not on a surface. The bracket accounts for floating point by
-/// [a stated slack](Distance::lower_bound) of `2^-42` times the largest coordinate about the reference's centre, and
-/// for the [`rounding`](TriangleMesh::rounding) that both meshes report: it holds for the surfaces as their files have
-/// them. The same meshes and options give the same numbers on any number of threads.
+/// Any two meshes can be compared: open, non-manifold, intersecting themselves, with triangles
+/// without area, with different origins. Vertices that no triangle uses are not on a surface. The
+/// bracket accounts for floating point by [a stated slack](Distance::lower_bound) of `2^-42` times
+/// the largest coordinate about the reference's centre, and for the
+/// [`rounding`](TriangleMesh::rounding) that both meshes report: it holds for the surfaces as their
+/// files have them. The same meshes and options give the same numbers on any number of threads.
 ///
 /// Cost: about 0.1 us for each sample, plus the hierarchies, about 0.2 us for each triangle.
 ///
 /// # Errors
 ///
-/// [`MeasureError`] for a mesh without triangles, with indices out of range, with coordinates that are not finite, and
-/// for options that ask for no samples or no tolerance.
+/// [`MeasureError`] for a mesh without triangles, with indices out of range, with coordinates that
+/// are not finite, and for options that ask for no samples or no tolerance.
 ///
 /// # Examples
 ///
@@ -105,11 +107,12 @@ pub fn measure(
     })
 }
 
-/// Proves that the Hausdorff distance of two surfaces is at most `limit`, in mesh units, or that it is not.
+/// Proves that the Hausdorff distance of two surfaces is at most `limit`, in mesh units, or that it
+/// is not.
 ///
-/// Much cheaper than [`measure`] where the limit is not close to the distance: nothing is sampled, and every piece is
-/// settled as soon as it is within the limit. Floating point and rounding are accounted for as there, so a limit below
-/// both is never proven.
+/// Much cheaper than [`measure`] where the limit is not close to the distance: nothing is sampled,
+/// and every piece is settled as soon as it is within the limit. Floating point and rounding are
+/// accounted for as there, so a limit below both is never proven.
 ///
 /// # Errors
 ///
@@ -144,8 +147,8 @@ pub fn check_within(
     Ok(if upper_bound <= limit { Verdict::Within } else { Verdict::Undecided { upper_bound } })
 }
 
-/// Distance of every vertex of a mesh from another surface, in mesh units, in the order of the vertices; NaN for a
-/// vertex that is not finite, which no triangle uses.
+/// Distance of every vertex of a mesh from another surface, in mesh units, in the order of the
+/// vertices; NaN for a vertex that is not finite, which no triangle uses.
 ///
 /// # Errors
 ///
@@ -159,8 +162,8 @@ pub fn vertex_distances(mesh: &TriangleMesh, other: &TriangleMesh) -> Result<Vec
     Ok(sweep::point_distances(&points, &target))
 }
 
-/// Distances of `n_samples` points of a surface, spread evenly by area, from another, in mesh units; fewer if the
-/// surface has no area.
+/// Distances of `n_samples` points of a surface, spread evenly by area, from another, in mesh
+/// units; fewer if the surface has no area.
 ///
 /// # Errors
 ///

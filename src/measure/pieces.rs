@@ -11,11 +11,13 @@ const TOLERANCE: f64 = 0.01;
 /// Pieces after which the search ends with the bound that it has by then.
 const MAX_PIECES: usize = 4_000_000;
 
-/// A bound that no point of `pieces` exceeds in its distance from `surface`. 0 without pieces, infinite without a surface.
+/// A bound that no point of `pieces` exceeds in its distance from `surface`. 0 without pieces,
+/// infinite without a surface.
 ///
-/// A piece is a triangle; with equal corners it is a segment or a point. The bound is at most 1 % above the largest distance,
-/// but for rounding and for inputs that need more than 4,000,000 parts of pieces. It does not depend on the number of threads.
-/// Coordinates must be finite and at most `f32::MAX`. O(surface + pieces) in practice.
+/// A piece is a triangle; with equal corners it is a segment or a point. The bound is at most 1 %
+/// above the largest distance, but for rounding and for inputs that need more than 4,000,000 parts
+/// of pieces. It does not depend on the number of threads. Coordinates must be finite and at most
+/// `f32::MAX`. O(surface + pieces) in practice.
 pub(crate) fn bound_of_pieces(pieces: &[Triangle], surface: &[Triangle]) -> f64 {
     if pieces.is_empty() {
         return 0.0;

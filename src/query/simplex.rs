@@ -4,8 +4,8 @@ use std::fmt;
 
 /// What a mesh consists of: triangles for a surface, tetrahedra for a volume.
 ///
-/// [`Display`](fmt::Display) writes the word for several of them, as the program's texts and JSON keys
-/// use it.
+/// [`Display`](fmt::Display) writes the word for several of them, as the program's texts and JSON
+/// keys use it.
 ///
 /// ```
 /// use nephrite::query::Simplex;

@@ -8,16 +8,16 @@
 //! **Nodes without pointers or centres.** Levels are integers, so a tree on dyadic centres needs no
 //! nodes in memory. The lifetime `[b, d)` lives at height `h = bit length of b ^ (d - 1)` in node
 //! `b >> h`, the smallest dyadic block that holds all its levels. The centre `c` of the block
-//! satisfies `b < c < d`. A level `q < c` in the block is inside `[b, d)` if `b <= q`, a level `q
-//! >= c` if `d > q`. Hence a list by birth ascending and a list by death descending answer every
+//! satisfies `b < c < d`. A level `q < c` in the block is inside `[b, d)` if `b <= q`, a level
+//! `q >= c` if `d > q`. Hence a list by birth ascending and a list by death descending answer every
 //! stab with one prefix: at most one per height, `bit length of (n_levels - 1) + 1` in all. A
 //! lifetime of one level has height 0 and is stored once.
 //!
 //! **One group per height and level.** At height `h >= 1`, a level `x` is below the centre of its
 //! block or not. If it is, only births carry the stamp `x` there; if not, only last levels (`death
 //! - 1`) do. So the whole order is one counting sort with `n_heights * n_levels` groups, and a
-//! prefix follows from the ends of two groups. [`LayoutOrder`] lists the groups in the order of
-//! their slots.
+//!   prefix follows from the ends of two groups. [`LayoutOrder`] lists the groups in the order of
+//!   their slots.
 //!
 //! **Finding the prefixes.** Searching each list for the stamp costs a few cache misses per height,
 //! some 40 in a tree of a million levels. A table of prefix lengths by height and level, 4 bytes

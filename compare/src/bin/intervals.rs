@@ -2,8 +2,8 @@
 //!
 //! Every rival stores the triangles themselves, so that none has to gather them through ids, and
 //! writes into a buffer that is large enough. The lifetimes are read from the levels of the file
-//! one by one. coitrees and superintervals have AVX2 code only if it is compiled in: `RUSTFLAGS="-C
-//! target-cpu=native"`.
+//! one by one. coitrees and superintervals have AVX2 code only if it is compiled in:
+//! `RUSTFLAGS="-C target-cpu=native"`.
 
 use clap::Parser;
 use coitrees::{COITree, GenericInterval, IntervalTree};
