@@ -1,9 +1,9 @@
-//! Promise: a file that one version has written is read by every later one, and means the same.
+//! Promise: a file that one version has written is read by every later version, and means the same.
 //!
-//! `kept_files/` has a file of every form, as it was written when that form came to be, and
-//! `answers.txt` says what is in it. Neither is written anew: where this test fails, files that
-//! people have are lost. `KEEP=1 cargo test --test kept_files_stay_readable` adds files of forms of
-//! which none is kept yet.
+//! `kept_files/` has a file of every form, as it was written when that form was new, and
+//! `answers.txt` says what is in it. Neither is written again: if this test fails, files that
+//! people have are lost. `KEEP=1 cargo test --test kept_files_stay_readable` adds a file for each
+//! form that has none yet.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -21,7 +21,7 @@ use std::io::Cursor;
 use std::ops::ControlFlow::Continue;
 use std::path::{Path, PathBuf};
 
-/// A form of file and a file of it.
+/// A form of file, and a file of that form.
 type Form = (&'static str, Vec<u8>);
 
 fn folder() -> PathBuf {
@@ -88,8 +88,8 @@ fn volume_forms() -> Vec<Form> {
         .into()
 }
 
-/// What is at the corners of a level's simplices, positions and attributes, whatever the order of
-/// simplices and vertices.
+/// The corners of the simplices of a level, with positions and attributes, independent of the order
+/// of simplices and vertices.
 fn contents<const CORNERS: usize>(
     simplices: &[[u32; CORNERS]],
     positions: &[[f32; 3]],
@@ -108,8 +108,8 @@ fn contents<const CORNERS: usize>(
         .iter()
         .map(|simplex| {
             let corners = simplex.map(corner);
-            // Even turns keep the orientation: of four corners those of the last three, of three
-            // all.
+            // Even permutations keep the orientation: of the last three corners of a tetrahedron,
+            // or of all three of a triangle.
             let (fixed, turning) = corners.split_at(CORNERS - 3);
             let least = (0..3).min_by_key(|&i| &turning[i]).unwrap();
             fixed.iter().chain((0..3).map(|i| &turning[(least + i) % 3])).flatten().copied().collect()
@@ -119,7 +119,7 @@ fn contents<const CORNERS: usize>(
     checksum(&all.concat())
 }
 
-/// What is in a file, in one line.
+/// The contents of a file, in one line.
 fn answers(bytes: &[u8]) -> String {
     let lod = Lod::from_bytes(bytes).unwrap();
     lod.verify().unwrap();
@@ -155,7 +155,7 @@ fn answers(bytes: &[u8]) -> String {
     line
 }
 
-/// Answers by the names of files.
+/// Answers by file name.
 fn stated() -> BTreeMap<String, String> {
     let text = std::fs::read_to_string(folder().join("answers.txt")).unwrap_or_default();
     let split = |line: &str| line.split_once(": ").map(|(name, line)| (name.to_owned(), line.to_owned()));

@@ -1,20 +1,23 @@
-//! Polygons, concave ones too, cut into triangles over their own corners.
+//! Cuts polygons, also concave ones, into triangles over their own corners.
 //!
-//! A convex polygon becomes a fan from its first corner, as in nearly every other reader: where it is not flat the choice
-//! of diagonals is part of the surface. For any other polygon a fan is wrong. The ear-cutting libraries made for drawing drop corners on straight edges, which
-//! tears a surface apart where a neighbour uses such a corner; here a polygon of n corners always gives n - 2 triangles that
-//! use every corner. Following G. H. Meisters, "Polygons have ears" (American Mathematical Monthly 82, 1975): cut off a
-//! convex corner whose triangle holds no other corner, until a triangle is left.
+//! A convex polygon becomes a fan from its first corner, as in nearly every other reader: if it is
+//! not flat, the choice of diagonals is part of the surface. For any other polygon a fan is wrong.
+//! Ear-cutting libraries made for drawing drop corners on straight edges, which tears a surface
+//! apart if a neighbour uses such a corner. Here a polygon of n corners always gives n - 2
+//! triangles that use every corner. The method follows G. H. Meisters, "Polygons have ears"
+//! (American Mathematical Monthly 82, 1975): cut off a convex corner whose triangle contains no
+//! other corner, until a triangle is left.
 //!
-//! The polygon is seen along the axis nearest to its normal (M. E. Newell's: areas of the shadows on the coordinate planes),
-//! which keeps the coordinates as exact as they are. Only reflex and flat corners can block an ear; they are sorted
-//! along both axes, and the one along which an ear spans fewer of them is searched. The work per corner is bounded, so a
-//! hostile polygon costs time in proportion to its corners; what is left when the bound is met, or when a polygon that
+//! The polygon is projected along the axis nearest to its normal (M. E. Newell's: areas of the
+//! projections onto the coordinate planes), which keeps the coordinates exact. Only reflex and flat
+//! corners can block an ear. They are sorted along both axes, and the axis along which an ear spans
+//! fewer of them is searched. The work per corner is bounded, so a hostile polygon costs time in
+//! proportion to its corners. What is left when the bound is reached, or when a polygon that
 //! crosses itself has no ear, becomes a fan.
 
-/// Cuts polygons into triangles, keeping its buffers from one to the next.
+/// Cuts polygons into triangles, and reuses its buffers.
 pub(crate) struct Triangulator {
-    /// Corners seen along the axis nearest to the normal, counter-clockwise.
+    /// Corners projected along the axis nearest to the normal, counter-clockwise.
     flat: Vec<[f64; 2]>,
     /// Ring of the corners not yet cut off.
     next: Vec<usize>,
@@ -22,12 +25,14 @@ pub(crate) struct Triangulator {
     is_cut: Vec<bool>,
     /// Corners that are not strictly convex, by ascending first and by ascending second coordinate.
     blockers: [Vec<usize>; 2],
-    /// Corners that may still be looked at before the rest becomes a fan. Every polygon adds to it; what it does not use is left
-    /// for the next, so that all polygons together take at most time in proportion to their corners, and a constant.
+    /// Corners that may still be looked at before the rest becomes a fan. Every polygon adds to it,
+    /// and what one does not use is left for the next. So all polygons together take at most time
+    /// in proportion to their corners, plus a constant.
     budget: usize,
 }
 
-/// Corners looked at per corner, on the average over all polygons, before giving up; and how many more once (half a second).
+/// Looks per corner, on average over all polygons, before giving up; and additional looks once
+/// (half a second).
 const LOOKS_PER_CORNER: usize = 1024;
 const LOOKS_AT_FIRST: usize = 1 << 29;
 
@@ -45,11 +50,13 @@ impl Default for Triangulator {
 }
 
 impl Triangulator {
-    /// Appends the `n - 2` triangles of a polygon of `n >= 3` corners, as places in `corners`, in the polygon's sense of rotation.
+    /// Appends the `n - 2` triangles of a polygon of `n >= 3` corners, as places in `corners`, in
+    /// the rotational sense of the polygon.
     ///
-    /// Returns whether all of them have the polygon's orientation: for a polygon that does not cross itself they then tile it
-    /// exactly, because their oriented areas add up to the polygon at every point of the plane. Costs about n log n for the
-    /// polygons of real files, n^2 for hostile ones until the bound on work is met.
+    /// Returns whether all of them have the orientation of the polygon. For a polygon that does not
+    /// cross itself they then tile it exactly, because their oriented areas add up to the polygon
+    /// at every point of the plane. Costs about n log n for the polygons of real files, n^2 for
+    /// hostile ones until the bound on work is reached.
     pub(crate) fn triangulate(&mut self, corners: &[[f32; 3]], triangles: &mut Vec<[usize; 3]>) -> bool {
         match corners.len() {
             0..=2 => true,
@@ -69,7 +76,7 @@ impl Triangulator {
         }
     }
 
-    /// Fills the buffers for a polygon: the shadow, the ring, the blockers.
+    /// Fills the buffers for a polygon: projection, ring and blockers.
     fn lay_flat(&mut self, corners: &[[f32; 3]]) {
         let n_corners = corners.len();
         let normal = newell_normal(corners);
@@ -98,7 +105,8 @@ impl Triangulator {
         self.budget = self.budget.saturating_add(LOOKS_PER_CORNER * n_corners);
     }
 
-    /// Walks around the ring cutting ears, and fans what has none, or needs none because it is convex.
+    /// Walks around the ring and cuts ears. Fans the rest if it has no ear, or if it is convex and
+    /// needs none.
     fn cut_ears(&mut self, triangles: &mut Vec<[usize; 3]>) -> bool {
         let mut n_left = self.flat.len();
         let mut n_since_cut = 0;
@@ -113,7 +121,7 @@ impl Triangulator {
                 self.is_cut[corner] = true;
                 n_left -= 1;
                 n_since_cut = 0;
-                // Going past the neighbour keeps the walk from shaving slivers off one corner.
+                // Skipping the neighbour keeps the walk from cutting slivers off one corner.
                 corner = self.next[after];
             } else {
                 n_since_cut += 1;
@@ -132,7 +140,8 @@ impl Triangulator {
         is_tiled
     }
 
-    /// Whether a corner with its neighbours is strictly convex and its triangle holds no other corner.
+    /// Whether a corner with its neighbours is strictly convex and its triangle holds no other
+    /// corner.
     fn is_ear(&mut self, triangle: [usize; 3]) -> bool {
         self.budget = self.budget.saturating_sub(1);
         let [a, b, c] = triangle.map(|corner| self.flat[corner]);
@@ -141,7 +150,8 @@ impl Triangulator {
         }
         let blocks = |&blocker: &usize| {
             let point = self.flat[blocker];
-            // Corners in one place with a corner of the ear are the two sides of a cut made to reach a hole.
+            // A corner at the position of a corner of the ear is the other side of a cut that
+            // reaches a hole.
             let is_apart = point != a && point != b && point != c;
             is_apart
                 && !self.is_cut[blocker]
@@ -155,7 +165,7 @@ impl Triangulator {
         first.is_none()
     }
 
-    /// The corners that can block which lie beside a triangle along one axis, the axis that leaves fewer.
+    /// The blocking corners beside a triangle, along the axis that leaves fewer of them.
     fn blockers_near(&self, triangle: [[f64; 2]; 3]) -> &[usize] {
         let [along_first, along_second] = [0, 1].map(|axis| {
             let values = triangle.map(|corner| corner[axis]);
@@ -170,7 +180,8 @@ impl Triangulator {
     }
 }
 
-/// The two triangles of a quadrilateral: along the only diagonal inside it, or else from the first corner.
+/// The two triangles of a quadrilateral: along the only diagonal inside it, otherwise from the
+/// first corner.
 fn split_quad(corners: &[[f32; 3]]) -> ([[usize; 3]; 2], bool) {
     const ALONG_02: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
     const ALONG_13: [[usize; 3]; 2] = [[1, 2, 3], [1, 3, 0]];
@@ -187,7 +198,8 @@ fn split_quad(corners: &[[f32; 3]]) -> ([[usize; 3]; 2], bool) {
     if takes_13 { (ALONG_13, agreement_13 >= 0.0) } else { (ALONG_02, agreement_02 >= 0.0) }
 }
 
-/// Twice the area vector of a polygon; its components are twice the areas of its shadows on the coordinate planes.
+/// Twice the area vector of a polygon; its components are twice the areas of the projections onto
+/// the coordinate planes.
 fn newell_normal(corners: &[[f32; 3]]) -> [f64; 3] {
     let start = corners[0].map(f64::from);
     let mut normal = [0.0; 3];
@@ -238,7 +250,8 @@ mod tests {
         corners.iter().zip(shifted).map(|(a, b)| 0.5 * f64::from(a[0] * b[1] - a[1] * b[0])).sum()
     }
 
-    /// Every triangle keeps the polygon's orientation and together they have its area.
+    /// Checks that every triangle keeps the orientation of the polygon and that together they have
+    /// its area.
     fn check_tiles(corners: &[[f32; 2]]) {
         let (triangles, is_tiled) = triangulate(corners);
         let areas = areas(corners, &triangles);

@@ -1,4 +1,5 @@
-//! Truncated and edited files of every format end in a mesh that holds together or in an error, never in a panic.
+//! Promise: truncated and edited files of every format end in a consistent mesh or in an error,
+//! never in a panic.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -8,7 +9,7 @@ use nephrite_formats::{MeshError, MeshFormat, read_mesh_bytes};
 use proptest::prelude::*;
 use samples::small_files;
 
-/// Reads bytes as every caller could, and uses what comes out. Returns whether a mesh did.
+/// Reads bytes as any caller could, and uses the result. Returns whether there is a mesh.
 fn is_read(bytes: &[u8], format: MeshFormat) -> bool {
     match read_mesh_bytes(bytes, format) {
         Ok((mesh, _)) => {
@@ -28,7 +29,8 @@ fn is_read(bytes: &[u8], format: MeshFormat) -> bool {
 fn files_cut_at_every_length() {
     for (name, format, bytes) in small_files() {
         let n_read = (0..bytes.len()).filter(|&length| is_read(&bytes[..length], format)).count();
-        // What says how long it is must notice; text may end in a number's middle or in lines that mean nothing.
+        // A format that states its length must notice; text may end in the middle of a number or in
+        // lines without meaning.
         let is_exact =
             matches!(name, "ply binary" | "ply doubles" | "ply big-endian strips" | "stl binary" | "glb");
         assert!(!is_exact || n_read == 0, "{name}: {n_read} of its beginnings were read");
@@ -68,7 +70,7 @@ proptest! {
             bytes[at] = value;
         }
         is_read(&bytes, format);
-        // Out of the middle.
+        // A cut in the middle.
         let cut = cut.index(bytes.len());
         bytes.drain(cut..(cut + 7).min(bytes.len()));
         is_read(&bytes, format);
@@ -96,7 +98,7 @@ fn contents_decide_over_the_extension() {
     for (name, format, bytes) in small_files() {
         for extension in MeshFormat::ALL {
             let detected = MeshFormat::detect(&bytes, Some(extension));
-            // OBJ and text STL have no magic: the extension is believed.
+            // OBJ and text STL have no signature, so the extension decides.
             let has_magic = !matches!(format, MeshFormat::Obj | MeshFormat::Stl);
             assert!(!has_magic || detected == Some(format), "{name} as {extension}: {detected:?}");
         }

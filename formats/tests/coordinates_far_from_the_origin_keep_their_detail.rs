@@ -1,4 +1,5 @@
-//! A survey in metres on a national grid, millimetres apart, loses nothing that matters in any format.
+//! Promise: a survey in metres on a national grid, with points millimetres apart, keeps its detail
+//! in every format.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -9,7 +10,7 @@ use nephrite_formats::{MeshFormat, TriangleMesh, read_mesh_bytes};
 const EAST: f64 = 10_000_000.0;
 const NORTH: f64 = -5_432_109.875;
 
-/// Points a millimetre apart in x and three in y, ten thousand kilometres from the origin.
+/// Points a millimetre apart in x and three in y, 10,000 kilometres from the origin.
 fn survey() -> Vec<[f64; 3]> {
     let point = |i: u32| {
         let (x, y) = (f64::from(i % 10), f64::from(i / 10));

@@ -1,4 +1,5 @@
-//! A mesh written and read again is the same mesh, as far as the format can hold it.
+//! Promise: a mesh that is written and read again is the same mesh, as far as the format can
+//! represent it.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -49,7 +50,7 @@ fn attributes(n_vertices: usize) -> impl Strategy<Value = Attribute> {
     })
 }
 
-/// Positions are compared as bits, so that minus zero and zero are told apart.
+/// Positions are compared as bits, so that -0 and 0 differ.
 fn bits(mesh: &TriangleMesh) -> Vec<[u32; 3]> {
     mesh.positions.iter().map(|position| position.map(f32::to_bits)).collect()
 }
@@ -88,7 +89,8 @@ proptest! {
         }
     }
 
-    /// Positions about an origin come back where they were, to the precision of doubles and of the new origin.
+    /// Positions about an origin come back in place, to the precision of doubles and of the new
+    /// origin.
     #[test]
     fn shifted_meshes_stay_in_place(offset in prop::array::uniform3(-1e8_f64..1e8)) {
         let mut mesh = bumpy_square(5);
@@ -131,7 +133,7 @@ fn attributes_come_back_from_the_formats_that_hold_them() {
     for name in ["normal", "texcoord"] {
         assert_eq!(obj.attribute(name), mesh.attribute(name));
     }
-    // OBJ holds colours as numbers from 0 to 1.
+    // OBJ has colours as numbers from 0 to 1.
     let color = obj.attribute("color").unwrap();
     assert_eq!((color.scalar, color.n_components), (ScalarType::F32, 4));
     let first = f32::from_le_bytes(color.bytes[4..8].try_into().unwrap());

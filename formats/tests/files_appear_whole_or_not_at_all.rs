@@ -1,4 +1,4 @@
-//! A mesh that cannot be written leaves the folder as it was.
+//! Promise: a mesh that cannot be written leaves the folder as it was.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -46,7 +46,7 @@ fn extensions_without_a_writer_are_refused() {
     assert_eq!(n_files(folder.path()), 0);
 }
 
-/// A writer on a disk with so much room.
+/// A writer on a disk with limited space.
 struct Full {
     room: usize,
 }

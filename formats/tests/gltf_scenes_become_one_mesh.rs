@@ -1,4 +1,5 @@
-//! Every triangle primitive of the default scene appears under its node's transform, and nothing else does.
+//! Promise: every triangle primitive of the default scene appears under the transform of its node,
+//! and nothing else does.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -68,7 +69,7 @@ fn normals_turn_with_the_inverse_transpose() {
     assert!(normal.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{normal:?}");
 }
 
-/// Four vertices and the indices 0 1 2 3 as bytes, drawn in a mode.
+/// Four vertices and the indices 0 1 2 3 as bytes, in a drawing mode.
 fn four_corners(mode: u32, indices: &str) -> Vec<u8> {
     let mut buffer = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0]);
     buffer.extend([0, 1, 2, 3]);

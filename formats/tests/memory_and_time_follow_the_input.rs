@@ -1,6 +1,7 @@
-//! What a file claims costs nothing; only what it holds does.
+//! Promise: memory and time follow what a file holds, not what it claims.
 //!
-//! The allocator of these tests refuses what goes beyond a multiple of the input; volumes have a file of their own.
+//! The allocator of these tests refuses more than a multiple of the input. Volumes have a test file
+//! of their own.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 #![allow(clippy::print_stdout, reason = "a long run says how long")]
@@ -84,8 +85,9 @@ fn one_line_of_many_megabytes() {
     assert!(read_within(format!("OFF\n3 1 0\n{comments}").as_bytes(), MeshFormat::Off).is_err());
 }
 
-/// Half a minute and 2 GB of memory for each file: `cargo test -p nephrite-formats --test memory_and_time_follow_the_input --
-/// --ignored --nocapture`. The last results are in fuzz/RESULTS.md.
+/// Half a minute and 2 GB of memory for each file: `cargo test -p nephrite-formats --test
+/// memory_and_time_follow_the_input -- --ignored --nocapture`. The last results are in
+/// fuzz/RESULTS.md.
 #[test]
 #[ignore = "reads eleven files of a gigabyte"]
 fn a_gigabyte_in_one_line() {
@@ -114,7 +116,7 @@ fn a_gigabyte_in_one_line() {
         bytes.resize(GIGABYTE, fill.as_bytes()[0]);
         let _watchdog = Watchdog::over(&name);
         let start = Instant::now();
-        // What a reader copies at most: the text once, and once more as a string.
+        // The most that a reader copies: the text once, and once more as a string.
         let capped = Capped::to(2 * GIGABYTE + BYTES_ALWAYS);
         let is_refused = match format {
             Ok(format) => read_mesh_bytes(&bytes, format).is_err(),
@@ -131,8 +133,9 @@ fn a_face_of_a_hundred_thousand_corners() {
     let _guard = alone();
     let n_corners = 100_000_u32;
     let mut star = String::new();
-    // A star with spikes of random length: simple, and cut within the work allowed, which is counted, or else it would be folded; and the same
-    // corners in an order that crosses itself everywhere.
+    // A star with spikes of random length is simple, and is cut within the allowed work. If it
+    // exceeded that work it would be a fan, which the test would count. The same corners in another
+    // order cross themselves everywhere.
     let mut random = 1_u32;
     for i in 0..n_corners {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -152,7 +155,7 @@ fn a_face_of_a_hundred_thousand_corners() {
 #[test]
 fn many_hostile_polygons() {
     let _guard = alone();
-    // Corners at random: every polygon crosses itself.
+    // Random corners: every polygon crosses itself.
     let mut text = String::new();
     let mut random = 1_u32;
     for _ in 0..1000 {

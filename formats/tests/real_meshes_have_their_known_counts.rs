@@ -1,6 +1,7 @@
-//! Meshes from scanners, modellers and other programs read with the counts that are known for them.
+//! Promise: meshes from scanners, modellers and other programs are read with their known counts.
 //!
-//! The counts were made by another reader; they are in the list beside the meshes. Without that folder nothing is tested.
+//! Another reader made the counts; they are in the list beside the meshes. Without that folder
+//! nothing is tested.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -43,7 +44,7 @@ fn real_meshes_have_their_known_counts() {
         let (mesh, report) = read_mesh(folder.join(&file)).unwrap();
         mesh.check().unwrap();
         if file == "gltf/2CylinderEngine.glb" {
-            // The list counts each mesh once; the scene places some several times.
+            // The list counts each mesh once; the scene has some of them several times.
             assert_eq!((mesh.positions.len(), mesh.triangles.len()), (84_657, 121_496));
             continue;
         }
@@ -76,9 +77,10 @@ fn odd_files_have_their_stated_outcomes() {
     check("comments.off", "8 vertices, 12 triangles");
     check("empty.obj", "no faces (0 vertices)");
     check("eof_test.obj", "3 vertices, 1 triangles");
-    // Its faces hold more values than its header declares.
+    // Its faces have more values than its header declares.
     check("fuze_ascii.ply", "502 vertices, 1000 triangles");
-    // Its face element is missing from the header, so that the faces' list is a vertex's.
+    // The face element is missing from its header, so the list of the faces is read as one of the
+    // vertices.
     check("issue623.ply", "line 15: expected the length of a list, found \"7.941797\"");
     // A face without corners is dropped.
     check("malformed2.obj", "8 vertices, 10 triangles");

@@ -1,4 +1,4 @@
-//! What a volume file claims costs nothing; only what it holds does.
+//! Promise: memory and time follow what a volume file holds, not what it claims.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -63,7 +63,7 @@ fn numbers_in_volumes_that_claim_more_are_refused_or_cost_nothing() {
             let n_digits = bytes[at..].iter().take_while(|byte| byte.is_ascii_digit()).count();
             for giant in ["0", "1000000", "2147483648", "4000000000", "18446744073709551615", "-1"] {
                 let edited = [&bytes[..at], giant.as_bytes(), &bytes[at + n_digits..]].concat();
-                // Whatever comes of it, it is bounded.
+                // Any outcome is accepted, within the limit of memory.
                 let _ = read_volume_within(&edited, format);
             }
             at += n_digits.max(1);
@@ -99,7 +99,7 @@ fn binary_numbers_that_claim_more_are_refused_or_cost_nothing() {
         for at in 0..bytes.len() {
             for giant in giants {
                 let rest = bytes.get(at + giant.len()..).unwrap_or_default();
-                // Whatever comes of it, it is bounded.
+                // Any outcome is accepted, within the limit of memory.
                 let _ = read_volume_within(&[&bytes[..at], giant, rest].concat(), format);
             }
         }
@@ -161,7 +161,7 @@ fn thousands_of_fields_of_one_name() {
 #[test]
 fn thousands_of_arrays_that_are_the_same_bytes() {
     let _guard = alone();
-    // 100,000 points and 1,000 fields, all of them the one array of the appended data.
+    // 100,000 points and 1,000 fields, all over the same array of the appended data.
     let data = vec![0; 1_200_000];
     let array = |name: &str, n_components| {
         format!(

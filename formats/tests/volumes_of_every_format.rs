@@ -1,4 +1,5 @@
-//! Volume files are read with their fields, written so that they read back the same, and damaged ones end in an error.
+//! Promise: volume files are read with their fields, come back the same after writing, and end in
+//! an error if they are damaged.
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
@@ -127,7 +128,7 @@ fn pieces_of_a_vtu_file_become_one_volume() {
     let ids: Vec<f64> = mesh.attribute("id").unwrap().values().collect();
     assert_eq!(ids, (1..=10).map(f64::from).collect::<Vec<_>>());
     assert!(report.notes().is_empty());
-    // A field that a piece lacks, has of another type or of another length is no field of the whole.
+    // A field that a piece lacks, or has with another type or length, is not a field of the whole.
     for other in
         [("\"id\"", "\"name\""), ("Int32\" Name=\"id\"", "Float32\" Name=\"id\""), ("1 2 3 4 5<", "1 2 3 4<")]
     {
@@ -135,7 +136,7 @@ fn pieces_of_a_vtu_file_become_one_volume() {
         assert!(mesh.attributes.is_empty() && !report.notes().is_empty(), "{other:?}");
     }
     assert!(matches!(with(&[]), Err(MeshError::Missing { .. })));
-    // Indices count from the first point of their own piece, and stay inside it.
+    // Indices count from the first point of their own piece, and must be within it.
     let beyond = with(&[&piece, &piece.replace("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5")]);
     assert!(matches!(beyond, Err(MeshError::IndexOutOfRange { .. })), "{beyond:?}");
     assert!(with(&[&piece.replace("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5"), &piece]).is_err());

@@ -1,4 +1,4 @@
-//! Promise: the program writes whole pictures and one JSON object, or fails in one line.
+//! Promise: the program writes whole pictures and one JSON object, or fails with one line.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use nephrite::store::{Provenance, StoreOptions};
@@ -20,7 +20,7 @@ fn write_levels(path: &Path) {
     nephrite::store::write(path, &build.mesh, &build.history, &Provenance::default(), &options).unwrap();
 }
 
-/// The program's own line; drivers write others beside it.
+/// The line of the program itself; drivers write other lines.
 fn failure(output: &Output) -> String {
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let text = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -1,5 +1,5 @@
-//! Promise: levels drawn as runs of the static index buffer make the pictures that copies of them
-//! make, pixel for pixel.
+//! Promise: levels drawn as runs of the static index buffer give the same pictures as copies of
+//! them, pixel for pixel.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use nephrite::TriangleMesh;
@@ -19,7 +19,7 @@ fn picture(renderer: &Renderer<'_>, camera: &Camera, frame: &Frame, geometries: 
     renderer.picture().unwrap()
 }
 
-/// The picture of a frame drawn as it is, in runs.
+/// The picture of a frame drawn in runs.
 fn by_runs(renderer: &Renderer<'_>, camera: &Camera, frame: &Frame, models: &[Model]) -> Picture {
     let geometries: Vec<Geometry> = models.iter().map(|model| model.geometry().clone()).collect();
     picture(renderer, camera, frame, &geometries)

@@ -1,4 +1,5 @@
-//! An allocator that refuses what an input of its length does not justify. A refused allocation ends the process.
+//! An allocator that refuses what the length of an input does not justify. A refused allocation
+//! ends the process.
 #![allow(dead_code, reason = "each test file takes what it needs")]
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
@@ -14,23 +15,24 @@ mod watchdog;
 #[global_allocator]
 static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 
-/// Held by the test that runs, as the cap is for the process.
+/// Held by the test that runs, because the cap is for the whole process.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
-/// The test that asks is the only one until it lets go.
+/// Until the guard is dropped, the calling test is the only one that runs.
 pub(crate) fn alone() -> MutexGuard<'static, ()> {
     ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Bytes that may be allocated at once per byte of input, and in any case: the harness needs some itself.
+/// Bytes that may be allocated at a time: per byte of input, and in any case, because the test
+/// harness needs some.
 const BYTES_PER_BYTE: usize = 64;
 pub(crate) const BYTES_ALWAYS: usize = 1 << 20;
 
-/// Lifts the cap when it goes, also when a panic needs memory to be told.
+/// Lifts the cap when it is dropped, also during a panic, whose message needs memory.
 pub(crate) struct Capped;
 
 impl Capped {
-    /// Refuses whatever goes beyond so many bytes more than there are now.
+    /// Limits memory to `n_bytes` more than is allocated now.
     pub(crate) fn to(n_bytes: usize) -> Self {
         ALLOCATOR.set_limit(ALLOCATOR.allocated() + n_bytes).unwrap();
         Self
@@ -43,7 +45,7 @@ impl Drop for Capped {
     }
 }
 
-/// Does something with an input under the cap, and to an end.
+/// Calls `read` under the cap, and checks that it ends.
 pub(crate) fn within<T>(n_bytes: usize, what: impl std::fmt::Display, read: impl FnOnce() -> T) -> T {
     let _watchdog = Watchdog::over(format_args!("{what} of {n_bytes} bytes"));
     let _capped = Capped::to(BYTES_ALWAYS + BYTES_PER_BYTE * n_bytes);

@@ -1,4 +1,4 @@
-//! Meshes and files that the tests share.
+//! Meshes and files shared by the tests.
 #![allow(dead_code, reason = "each test uses some of them")]
 #![allow(
     clippy::unwrap_used,
@@ -16,7 +16,7 @@ use nephrite_formats::{Attribute, MeshFormat, ScalarType, TriangleMesh, read_mes
 pub(crate) const WRITTEN: [MeshFormat; 5] =
     [MeshFormat::Ply, MeshFormat::Obj, MeshFormat::Stl, MeshFormat::Off, MeshFormat::Glb];
 
-/// The folder of real meshes, where there is one.
+/// The folder of real meshes, if there is one.
 pub(crate) fn data_folder() -> Option<PathBuf> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
     if !folder.join("MANIFEST.md").is_file() {
@@ -77,7 +77,8 @@ pub(crate) fn again(mesh: &TriangleMesh, format: MeshFormat) -> TriangleMesh {
     read_mesh_bytes(&written(mesh, format), format).unwrap().0
 }
 
-/// The corners of all triangles in file coordinates: what every format keeps, whatever it does to vertices.
+/// The corners of all triangles in file coordinates: what every format keeps, whatever it does to
+/// vertices.
 pub(crate) fn corners(mesh: &TriangleMesh) -> Vec<[f64; 3]> {
     mesh.triangles.iter().flatten().map(|&index| mesh.point(index)).collect()
 }
@@ -167,7 +168,8 @@ fn big_endian_strips() -> Vec<u8> {
     bytes
 }
 
-/// A strip of two triangles; the position of vertex 3 comes from a sparse accessor, positions lie among other bytes.
+/// A strip of two triangles; the position of vertex 3 comes from a sparse accessor, positions lie
+/// among other bytes.
 fn sparse_strip() -> Vec<u8> {
     let mut buffer = Vec::new();
     for position in [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [9.0, 9.0, 9.0]] {
