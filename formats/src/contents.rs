@@ -167,6 +167,10 @@ kinds! {
     Property = "property", "properties";
     /// Vertices that no face uses and that have no place in the result.
     UnusedVertex = "vertex that no face uses", "vertices that no face uses";
+    /// Points that no cell uses and whose position is not finite or too large.
+    UnusablePoint = "unused point without a usable position", "unused points without a usable position";
+    /// Cells that copy those of another piece, are covered by finer ones or are hidden.
+    GhostCell = "ghost cell", "ghost cells";
     /// Bytes behind the end of the mesh.
     TrailingByte = "byte behind the mesh", "bytes behind the mesh";
     /// Values at the vertices of a volume.

@@ -3,6 +3,8 @@
 //! A line ends at LF, CR LF or a lone CR. Nothing is copied and nothing is looked at twice, so one line of a gigabyte costs
 //! what a gigabyte of short lines costs.
 
+use std::str::FromStr;
+
 use crate::error::{MeshError, Place, excerpt};
 
 /// A position in a text.
@@ -181,9 +183,39 @@ impl<'a> Scanner<'a> {
     }
 }
 
-/// A decimal number, also `inf` and `nan` in the spellings that Rust reads.
-pub(crate) fn parse_number(word: &[u8]) -> Option<f64> {
-    std::str::from_utf8(word).ok()?.parse().ok()
+/// A decimal number in any spelling: those of Rust with `inf` and `nan`, those of C libraries
+/// (`-nan(ind)`, `1.#QNAN`, `1.#INF`) and those of Fortran (`1.5D+03`, `1.5-103`). Fortran's
+/// `****`, a number too long for its column, is NaN.
+pub(crate) fn parse_number<T: FromStr>(word: &[u8]) -> Option<T> {
+    let text = std::str::from_utf8(word).ok()?;
+    text.parse().ok().or_else(|| respelled(text)?.parse().ok())
+}
+
+/// A float of another language as Rust spells it; `None` if it is none.
+fn respelled(text: &str) -> Option<String> {
+    let lower = text.to_ascii_lowercase();
+    let (sign, digits) = match lower.strip_prefix('-') {
+        Some(digits) => ("-", digits),
+        None => ("", lower.strip_prefix('+').unwrap_or(&lower)),
+    };
+    if digits.starts_with("1.#inf") {
+        return Some(format!("{sign}inf"));
+    }
+    let is_overlong = !lower.is_empty() && lower.bytes().all(|byte| byte == b'*');
+    if digits.starts_with("1.#") || digits.starts_with("nan(") || digits == "nanq" || is_overlong {
+        return Some("nan".to_owned());
+    }
+    fortran_exponent(digits).map(|(mantissa, exponent)| format!("{sign}{mantissa}e{exponent}"))
+}
+
+/// Mantissa and exponent of `1.5d3`, `1.5q3` and `1.5-103`. Fortran leaves out the letter where the
+/// exponent has three digits.
+fn fortran_exponent(digits: &str) -> Option<(&str, &str)> {
+    if let Some(parts) = digits.split_once(['d', 'q']) {
+        return Some(parts);
+    }
+    let (mantissa, exponent) = digits.split_at(digits.rfind(['+', '-'])?);
+    (exponent.len() == 4 && mantissa.contains('.')).then_some((mantissa, exponent))
 }
 
 /// A decimal integer, or a number such as `3.0` that is one.
@@ -242,8 +274,21 @@ mod tests {
         for (text, value) in [("1", 1.0), ("+.5", 0.5), ("-1.e2", -100.0), ("1E-3", 1e-3)] {
             assert_eq!(parse_number(text.as_bytes()), Some(value));
         }
-        for text in ["", "1,5", "0x10", "1.#IND", "--1", "\0"] {
-            assert_eq!(parse_number(text.as_bytes()), None, "{text}");
+        let others = [("1.5D+03", 1500.0), ("-2d-1", -0.2), ("1.5q2", 150.0), ("1.5-103", 1.5e-103)];
+        for (text, value) in others {
+            assert_eq!(parse_number(text.as_bytes()), Some(value), "{text}");
+        }
+        for (text, value) in
+            [("1.#INF", f64::INFINITY), ("-1.#INF00", f64::NEG_INFINITY), ("-Infinity", f64::NEG_INFINITY)]
+        {
+            assert_eq!(parse_number(text.as_bytes()), Some(value), "{text}");
+        }
+        for text in ["nan", "-nan(ind)", "nan(0x7f)", "NaNQ", "1.#QNAN", "-1.#IND", "1.#SNAN0", "*****"] {
+            assert!(parse_number(text.as_bytes()).is_some_and(f64::is_nan), "{text}");
+        }
+        for text in ["", "1,5", "0x10", "--1", "\0", "d", "1d", "d3", "1-2", "1.5-2", "nano", "+", "1.5d3d3"]
+        {
+            assert_eq!(parse_number::<f64>(text.as_bytes()), None, "{text}");
         }
         assert_eq!(parse_integer(b"3.0"), Some(3));
         assert_eq!(parse_integer(b"3.5"), None);

@@ -112,7 +112,7 @@ impl<'a> Text<'a> {
                 integer().and_then(|v| u32::try_from(v).ok()).map(|v| packed.extend(v.to_le_bytes()))
             }
             ScalarType::F32 => parse_number(word).map(|v| packed.extend(nearest_f32(v).to_le_bytes())),
-            ScalarType::F64 => parse_number(word).map(|v| packed.extend(v.to_le_bytes())),
+            ScalarType::F64 => parse_number::<f64>(word).map(|v| packed.extend(v.to_le_bytes())),
         };
         bytes.ok_or_else(|| self.scanner.unexpected("a value of the property's type", Some(word)))
     }

@@ -1,5 +1,7 @@
 //! Cells of any kind on their way to tetrahedra.
 
+use std::collections::HashMap;
+
 use super::coning::{HEXAHEDRON, PRISM, PYRAMID, VOXEL, cone};
 use crate::FileReport;
 use crate::error::{MeshError, Place};
@@ -17,7 +19,7 @@ pub(super) enum CellKind {
 }
 
 impl CellKind {
-    /// Corners, which stand before all other nodes of a cell.
+    /// Number of corners. They stand before all other nodes of a cell.
     pub(super) fn n_corners(self) -> usize {
         match self {
             Self::Flat => 0,
@@ -29,14 +31,17 @@ impl CellKind {
     }
 }
 
-/// Tetrahedra gathered from cells.
+/// Cells with a volume, in the order of the file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
-    tetrahedra: Vec<[u32; 4]>,
+    kinds: Vec<CellKind>,
+    /// Corners of all cells, one cell after the other.
+    corners: Vec<u32>,
 }
 
 impl Cells {
-    /// Adds a cell by its nodes, corners first. Solids are cut, nodes behind the corners left out, flat cells counted.
+    /// Adds a cell by its nodes, corners first. Counts flat cells, and solids that will be cut;
+    /// leaves out nodes behind the corners.
     ///
     /// # Errors
     ///
@@ -60,26 +65,117 @@ impl Cells {
         }
         report.n_cells_straightened += usize::from(nodes.len() > corners.len());
         report.n_solids_cut += usize::from(kind != CellKind::Tetrahedron);
-        let tetrahedra = &mut self.tetrahedra;
-        match kind {
-            CellKind::Hexahedron => cone(&HEXAHEDRON, corners, |t| tetrahedra.push(t)),
-            CellKind::Voxel => cone(&VOXEL, corners, |t| tetrahedra.push(t)),
-            CellKind::Prism => cone(&PRISM, corners, |t| tetrahedra.push(t)),
-            CellKind::Pyramid => cone(&PYRAMID, corners, |t| tetrahedra.push(t)),
-            CellKind::Tetrahedron | CellKind::Flat => {
-                tetrahedra.extend(corners.first_chunk::<4>());
-            }
-        }
+        self.kinds.push(kind);
+        self.corners.extend_from_slice(corners);
         Ok(())
     }
 
-    /// Adds the tetrahedra of later cells.
+    /// Adds later cells.
     pub(super) fn append(&mut self, mut later: Self) {
-        self.tetrahedra.append(&mut later.tetrahedra);
+        self.kinds.append(&mut later.kinds);
+        self.corners.append(&mut later.corners);
     }
 
-    /// The tetrahedra, in the order of their cells.
-    pub(super) fn into_tetrahedra(self) -> Vec<[u32; 4]> {
-        self.tetrahedra
+    /// Number of cells with a volume.
+    pub(super) fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// Corners of all cells.
+    pub(super) fn corners(&self) -> &[u32] {
+        &self.corners
+    }
+
+    /// Gives every corner the new number of its vertex.
+    pub(super) fn renumber(&mut self, new_numbers: &[u32]) {
+        self.corners.iter_mut().for_each(|corner| *corner = new_numbers[*corner as usize]);
+    }
+
+    /// The tetrahedra, in the order of their cells. Two solids with a face at the same place cut it
+    /// alike, also if each has vertices of its own there.
+    pub(super) fn into_tetrahedra(self, positions: &[[f32; 3]]) -> Vec<[u32; 4]> {
+        if self.kinds.iter().all(|&kind| kind == CellKind::Tetrahedron) {
+            return self.corners.as_chunks::<4>().0.to_vec();
+        }
+        let representatives = representatives(positions);
+        let mut tetrahedra = Vec::with_capacity(self.kinds.len());
+        let mut rest = self.corners.as_slice();
+        for kind in self.kinds {
+            let (corners, later) = rest.split_at(kind.n_corners());
+            rest = later;
+            let faces: &[&[usize]] = match kind {
+                CellKind::Hexahedron => &HEXAHEDRON,
+                CellKind::Voxel => &VOXEL,
+                CellKind::Prism => &PRISM,
+                CellKind::Pyramid => &PYRAMID,
+                CellKind::Tetrahedron | CellKind::Flat => {
+                    tetrahedra.extend(corners.first_chunk::<4>());
+                    continue;
+                }
+            };
+            let rank = |corner: usize| representatives[corners[corner] as usize];
+            cone(faces, corners.len(), rank, |t| tetrahedra.push(t.map(|corner| corners[corner])));
+        }
+        tetrahedra
+    }
+}
+
+/// For each vertex the first vertex at its position.
+fn representatives(positions: &[[f32; 3]]) -> Vec<u32> {
+    let mut first_at = HashMap::with_capacity(positions.len());
+    // Adding zero makes one zero of the two.
+    let key = |position: &[f32; 3]| position.map(|coordinate| (coordinate + 0.0).to_bits());
+    (0..).zip(positions).map(|(vertex, position)| *first_at.entry(key(position)).or_insert(vertex)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::VolumeFormat;
+    use std::collections::BTreeMap;
+
+    /// A block of unit cubes, each with 8 vertices of its own, whose corners are numbered from
+    /// another one in each cube.
+    fn cubes_apart(n: u32) -> (Vec<[f32; 3]>, Cells) {
+        let mut report = FileReport::new(VolumeFormat::Vtk);
+        let (mut positions, mut cells) = (Vec::new(), Cells::default());
+        for cube in 0..n * n * n {
+            let low = [cube % n, cube / n % n, cube / n / n];
+            let start = 8 * cube;
+            let turned = |corner: u32| start + (corner + cube) % 8;
+            let mut at = vec![[0.0; 3]; 8];
+            for corner in 0..8_u32 {
+                let offset = [(corner + 1) >> 1 & 1, corner >> 1 & 1, corner >> 2];
+                #[expect(clippy::cast_precision_loss, reason = "small coordinates")]
+                let place = [0, 1, 2].map(|axis| (low[axis] + offset[axis]) as f32);
+                at[(turned(corner) - start) as usize] = place;
+            }
+            positions.extend(at);
+            let nodes: Vec<u32> = (0..8).map(turned).collect();
+            cells.push(CellKind::Hexahedron, &nodes, positions.len(), Place::File, &mut report).unwrap();
+        }
+        (positions, cells)
+    }
+
+    #[test]
+    fn hexahedra_with_vertices_of_their_own_cut_common_faces_alike() {
+        let n = 4;
+        let (positions, cells) = cubes_apart(n);
+        let tetrahedra = cells.into_tetrahedra(&positions);
+        assert_eq!(tetrahedra.len(), 6 * 64);
+        let mut faces: BTreeMap<Vec<[u32; 3]>, usize> = BTreeMap::new();
+        for tetrahedron in &tetrahedra {
+            for left_out in 0..4 {
+                let corners = (0..4).filter(|&corner| corner != left_out);
+                let mut face: Vec<[u32; 3]> =
+                    corners.map(|c| positions[tetrahedron[c] as usize].map(f32::to_bits)).collect();
+                face.sort_unstable();
+                *faces.entry(face).or_default() += 1;
+            }
+        }
+        // Two triangles for each square on the outside, every other face between two tetrahedra.
+        let n_outer = faces.values().filter(|&&n| n == 1).count();
+        assert_eq!(n_outer, 2 * 6 * 16);
+        assert!(faces.values().all(|&n| n <= 2));
     }
 }

@@ -1,11 +1,14 @@
-//! Solids of flat quadrilaterals and triangles, cut into tetrahedra that fit those of their neighbours.
+//! Solids of flat quadrilaterals and triangles, cut into tetrahedra that fit those of their
+//! neighbours.
 //!
-//! Cutting each hexahedron by a fixed pattern leaves neighbours with crossing diagonals on the face they share. Here every
-//! solid is the cone from its least vertex over the faces that do not touch it, and every quadrilateral is cut through its
-//! own least vertex. Both neighbours of a face know its vertices and so cut it alike.
+//! Cutting each hexahedron by a fixed pattern leaves neighbours with crossing diagonals on the face
+//! they share. Here every solid is the cone from its least corner over the faces that do not touch it,
+//! and every quadrilateral is cut through its own least corner. Both neighbours of a face know its
+//! corners and so cut it alike. The order of the corners comes from their places, so that this holds for
+//! neighbours with vertices of their own as well.
 //!
-//! Reference: J. Dompierre, P. Labbe, M.-G. Vallet, R. Camarero: "How to subdivide pyramids, prisms and hexahedra into
-//! tetrahedra" (International Meshing Roundtable, 1999).
+//! Reference: J. Dompierre, P. Labbe, M.-G. Vallet, R. Camarero: "How to subdivide pyramids, prisms and
+//! hexahedra into tetrahedra" (International Meshing Roundtable, 1999).
 
 /// Faces of a hexahedron with the vertex order of VTK, seen from outside counter-clockwise.
 pub(super) const HEXAHEDRON: [&[usize]; 6] =
@@ -18,15 +21,22 @@ pub(super) const PRISM: [&[usize]; 5] = [&[0, 1, 2], &[3, 5, 4], &[0, 3, 4, 1], 
 /// Faces of a pyramid over the quadrilateral 0 1 2 3 with the apex 4.
 pub(super) const PYRAMID: [&[usize]; 5] = [&[0, 3, 2, 1], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]];
 
-/// Cuts a solid with the given faces and hands out its tetrahedra.
-pub(super) fn cone(faces: &[&[usize]], vertices: &[u32], mut tetrahedron: impl FnMut([u32; 4])) {
-    let Some(&apex) = vertices.iter().min() else { return };
+/// Cuts a solid with the given faces and `n_corners` corners, and hands out its tetrahedra by corner.
+///
+/// `rank` orders the corners, equal for corners at one place. The least one is the apex.
+pub(super) fn cone(
+    faces: &[&[usize]],
+    n_corners: usize,
+    rank: impl Fn(usize) -> u32,
+    mut tetrahedron: impl FnMut([usize; 4]),
+) {
+    let Some(apex) = (0..n_corners).min_by_key(|&corner| rank(corner)) else { return };
     for face in faces {
-        let corner = |i: usize| vertices[face[i % face.len()]];
-        if (0..face.len()).any(|i| corner(i) == apex) {
+        let corner = |i: usize| face[i % face.len()];
+        if face.iter().any(|&corner| rank(corner) == rank(apex)) {
             continue;
         }
-        let least = (0..face.len()).min_by_key(|&i| corner(i)).unwrap_or(0);
+        let least = (0..face.len()).min_by_key(|&i| rank(corner(i))).unwrap_or(0);
         for i in 1..face.len() - 1 {
             // The face is seen from outside, the apex from inside.
             tetrahedron([corner(least), corner(least + i + 1), corner(least + i), apex]);
@@ -57,7 +67,8 @@ mod tests {
         for (&name, &corner) in names.iter().zip(corners) {
             mesh.positions[name as usize] = corner;
         }
-        cone(faces, names, |tetrahedron| mesh.tetrahedra.push(tetrahedron));
+        let named = |t: [usize; 4]| mesh.tetrahedra.push(t.map(|corner| names[corner]));
+        cone(faces, names.len(), |corner| names[corner], named);
         mesh
     }
 

@@ -3,6 +3,7 @@
 mod cells;
 mod coning;
 mod format;
+mod ghosts;
 mod gmsh;
 mod medit;
 mod meshb;

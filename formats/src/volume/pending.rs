@@ -33,6 +33,27 @@ impl Points {
         }
     }
 
+    /// For each point whether `f32` can hold its coordinates.
+    fn usable(&self) -> Vec<bool> {
+        let can_be_f32 = |value: f64| value.abs() <= f64::from(f32::MAX);
+        match self {
+            Self::F32(points) => {
+                points.iter().map(|point| point.iter().all(|value| value.is_finite())).collect()
+            }
+            Self::F64(points) | Self::Text(points) => {
+                points.iter().map(|point| point.iter().all(|&value| can_be_f32(value))).collect()
+            }
+        }
+    }
+
+    fn retain(&mut self, is_kept: &[bool]) {
+        let mut kept = is_kept.iter().copied();
+        match self {
+            Self::F32(points) => points.retain(|_| kept.next().unwrap_or(true)),
+            Self::F64(points) | Self::Text(points) => points.retain(|_| kept.next().unwrap_or(true)),
+        }
+    }
+
     fn into_coordinates(self) -> Result<Coordinates, MeshError> {
         match self {
             Self::F32(points) => from_f32(points),
@@ -89,32 +110,64 @@ pub(super) fn wrong_length(found: u64, expected: u64) -> String {
     format!("it has {found} values for {expected} vertices")
 }
 
-/// Puts the parts of a volume together. Fields that were read for another number of vertices, since the file gives points after
-/// them or twice, are left out and reported.
+/// Puts the parts of a volume together. Leaves out and reports fields for another number of vertices
+/// (the file gives points after them, or twice), and points without a usable position that no cell uses.
 ///
 /// # Errors
 ///
-/// [`MeshError::NoTetrahedra`], and coordinates that are not finite or too large.
+/// [`MeshError::NoTetrahedra`], and coordinates of cells that are not finite or too large.
 pub(super) fn finish(
     points: Points,
-    cells: Cells,
+    mut cells: Cells,
     fields: Fields,
     mut report: FileReport,
 ) -> Result<(TetrahedronMesh, FileReport), MeshError> {
-    let tetrahedra = cells.into_tetrahedra();
-    if tetrahedra.is_empty() {
-        return Err(MeshError::NoTetrahedra { n_vertices: points.len() });
+    let n_points = points.len();
+    if cells.len() == 0 {
+        return Err(MeshError::NoTetrahedra { n_vertices: n_points });
     }
-    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
-    let (attributes, misfits): (Vec<_>, Vec<_>) = fields
+    let (fields, misfits): (Vec<_>, Vec<_>) = fields
         .fields
         .into_iter()
-        .partition(|(field, _)| field.bytes.len() == field.stride_bytes() * positions.len());
+        .partition(|(field, _)| field.bytes.len() == field.stride_bytes() * n_points);
     for (field, id) in misfits {
         let found = (field.bytes.len() / field.stride_bytes()) as u64;
-        report.leave_out(id, wrong_length(found, positions.len() as u64));
+        report.leave_out(id, wrong_length(found, n_points as u64));
     }
-    let attributes = attributes.into_iter().map(|(field, _)| field).collect();
+    let mut attributes: Vec<Attribute> = fields.into_iter().map(|(field, _)| field).collect();
+    let mut points = points;
+    if let Some(is_kept) = usable_or_used(&points, &cells) {
+        let n_left_out = is_kept.iter().filter(|&&is_kept| !is_kept).count();
+        report.count(Kind::UnusablePoint, n_left_out as u64);
+        points.retain(&is_kept);
+        attributes.iter_mut().for_each(|field| retain(field, &is_kept));
+        let mut n_kept = 0;
+        let number = |&is_kept: &bool| {
+            n_kept += u32::from(is_kept);
+            n_kept.saturating_sub(1)
+        };
+        cells.renumber(&is_kept.iter().map(number).collect::<Vec<u32>>());
+    }
+    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
+    let tetrahedra = cells.into_tetrahedra(&positions);
     let mesh = TetrahedronMesh { origin, positions, tetrahedra, attributes, rounding };
     Ok((mesh, report))
+}
+
+/// For each point whether it has a usable position or a cell uses it; `None` if all have and nothing
+/// is to be left out.
+fn usable_or_used(points: &Points, cells: &Cells) -> Option<Vec<bool>> {
+    let mut is_kept = points.usable();
+    if is_kept.iter().all(|&is_usable| is_usable) {
+        return None;
+    }
+    cells.corners().iter().for_each(|&corner| is_kept[corner as usize] = true);
+    is_kept.contains(&false).then_some(is_kept)
+}
+
+/// Keeps the values of the kept vertices.
+fn retain(field: &mut Attribute, is_kept: &[bool]) {
+    let values = field.bytes.chunks_exact(field.stride_bytes());
+    let kept = values.zip(is_kept).filter(|&(_, &is_kept)| is_kept);
+    field.bytes = kept.flat_map(|(value, _)| value.iter().copied()).collect();
 }

@@ -2,6 +2,7 @@
 
 use crate::ScalarType;
 use crate::coordinates::nearest_f32;
+use crate::text::parse_number;
 
 /// Type of the numbers in a file. Fields have no 64-bit integers; coordinates and indices may.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,8 +89,8 @@ pub(super) fn push_text(bytes: &mut Vec<u8>, number: NumberType, word: &[u8]) ->
             ScalarType::U16 => bytes.extend(integer::<u16>(text)?.to_le_bytes()),
             ScalarType::I32 => bytes.extend(integer::<i32>(text)?.to_le_bytes()),
             ScalarType::U32 => bytes.extend(integer::<u32>(text)?.to_le_bytes()),
-            ScalarType::F32 => bytes.extend(text.parse::<f32>().ok()?.to_le_bytes()),
-            ScalarType::F64 => bytes.extend(text.parse::<f64>().ok()?.to_le_bytes()),
+            ScalarType::F32 => bytes.extend(parse_number::<f32>(word)?.to_le_bytes()),
+            ScalarType::F64 => bytes.extend(parse_number::<f64>(word)?.to_le_bytes()),
         },
     }
     Some(())

@@ -8,6 +8,15 @@ use crate::text::{Scanner, parse_integer};
 /// A count of things that take two bytes each at least.
 pub(super) fn count(scanner: &mut Scanner<'_>, what: &'static str) -> Result<usize, MeshError> {
     let word = scanner.word();
+    checked_count(scanner, word, what)
+}
+
+/// A word as a count of things that take two bytes each at least, all of them behind it.
+pub(super) fn checked_count(
+    scanner: &Scanner<'_>,
+    word: Option<&[u8]>,
+    what: &'static str,
+) -> Result<usize, MeshError> {
     let count = word.and_then(parse_integer).and_then(|count| u64::try_from(count).ok());
     let count = count.ok_or_else(|| scanner.unexpected("a count", word))?;
     let limit = (scanner.n_bytes_left() as u64 / 2).min(u32::MAX.into());
@@ -19,6 +28,11 @@ pub(super) fn count(scanner: &mut Scanner<'_>, what: &'static str) -> Result<usi
 pub(super) fn integer(scanner: &mut Scanner<'_>) -> Result<i64, MeshError> {
     let word = scanner.word();
     word.and_then(parse_integer).ok_or_else(|| scanner.unexpected("a whole number", word))
+}
+
+/// Three numbers. A point that no cell uses may be anything, so they are not checked.
+pub(super) fn point(scanner: &mut Scanner<'_>) -> Result<[f64; 3], MeshError> {
+    Ok([scanner.number()?, scanner.number()?, scanner.number()?])
 }
 
 /// Numbers that a file gives its vertices, and their places in the order of the file.

@@ -1,9 +1,10 @@
 //! Reading a legacy file section by section.
 
 use super::cell_type::kind_of;
-use super::source::{Source, small_count};
+use super::source::{ArrayType, Source, small_count};
 use crate::error::{MeshError, Place};
 use crate::volume::cells::Cells;
+use crate::volume::ghosts::{Ghosts, tells_ghosts};
 use crate::volume::pending::{Fields, Points, finish};
 use crate::volume::scalars::{NumberType, Numbers};
 use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
@@ -21,7 +22,7 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileRepo
     }
     let word = source.word();
     if !word.is_some_and(|word| word.eq_ignore_ascii_case(b"unstructured_grid")) {
-        return Err(source.unexpected("UNSTRUCTURED_GRID", word));
+        return Err(unread_dataset(&source, word));
     }
     let mut reader = Reader {
         source,
@@ -30,12 +31,27 @@ pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileRepo
         nodes: Nodes::default(),
         types: None,
         fields: Fields::default(),
+        ghosts: Ghosts::default(),
         belongs: Belongs::Nothing,
     };
     while let Some(keyword) = reader.source.word() {
         reader.section(keyword)?;
     }
     reader.finish()
+}
+
+/// The error for a dataset that is no grid of cells.
+fn unread_dataset(source: &Source<'_>, word: Option<&[u8]>) -> MeshError {
+    const KNOWN: [&str; 6] =
+        ["POLYDATA", "STRUCTURED_GRID", "STRUCTURED_POINTS", "RECTILINEAR_GRID", "FIELD", "DIRECTED_GRAPH"];
+    let is_named = |name: &&&str| word.is_some_and(|word| word.eq_ignore_ascii_case(name.as_bytes()));
+    match KNOWN.iter().find(is_named) {
+        Some(name) => {
+            let feature = format!("a VTK dataset of the kind {name}");
+            MeshError::Unsupported { place: source.place(), feature }
+        }
+        None => source.unexpected("UNSTRUCTURED_GRID", word),
+    }
 }
 
 /// What arrays belong to, by the section they stand in.
@@ -60,6 +76,7 @@ struct Reader<'a> {
     nodes: Nodes,
     types: Option<Numbers>,
     fields: Fields,
+    ghosts: Ghosts,
     belongs: Belongs,
 }
 
@@ -178,41 +195,54 @@ impl Reader<'_> {
             _ => return Err(self.source.unexpected("a section of a legacy VTK file", Some(keyword))),
         }
         let name = self.source.name()?;
-        let (n_components, number) = self.shape(keyword)?;
-        let numbers = self.source.numbers([n, n_components], number)?;
-        self.keep(&name, n_components, numbers);
+        let (n_components, array_type) = self.shape(keyword)?;
+        self.values(&name, [n, n_components], array_type)
+    }
+
+    /// The values of an array, kept or left out.
+    fn values(&mut self, name: &str, shape: [usize; 2], array_type: ArrayType) -> Result<(), MeshError> {
+        let numbers = match array_type {
+            ArrayType::Numbers(number) => self.source.numbers(shape, number)?,
+            ArrayType::Bits => self.source.bits(shape)?,
+            ArrayType::Texts => {
+                self.source.skip_texts(shape)?;
+                self.leave_out(name);
+                return Ok(());
+            }
+        };
+        self.keep(name, shape[1], numbers);
         Ok(())
     }
 
     /// Components and type of an array, which stand behind its name.
-    fn shape(&mut self, keyword: &[u8]) -> Result<(usize, NumberType), MeshError> {
+    fn shape(&mut self, keyword: &[u8]) -> Result<(usize, ArrayType), MeshError> {
         let count = |source: &Source<'_>, word: Option<&[u8]>| {
             small_count(word).ok_or_else(|| source.unexpected("a number of components", word))
         };
         Ok(match keyword {
             b"SCALARS" => {
-                let number = self.source.number_type()?;
+                let array_type = self.source.array_type()?;
                 let word = self.source.word_in_line();
                 let n_components = if word.is_some() { count(&self.source, word)? } else { 1 };
                 if self.source.word_if(|word| word.eq_ignore_ascii_case(b"lookup_table")).is_some() {
                     self.source.name()?;
                 }
-                (n_components, number)
+                (n_components, array_type)
             }
             b"TEXTURE_COORDINATES" => {
                 let word = self.source.word();
-                (count(&self.source, word)?, self.source.number_type()?)
+                (count(&self.source, word)?, self.source.array_type()?)
             }
             b"COLOR_SCALARS" => {
                 let word = self.source.word();
                 let number =
                     if self.source.is_text() { NumberType::F32 } else { NumberType::Kept(ScalarType::U8) };
-                (count(&self.source, word)?, number)
+                (count(&self.source, word)?, ArrayType::Numbers(number))
             }
-            b"VECTORS" | b"NORMALS" => (3, self.source.number_type()?),
-            b"TENSORS" => (9, self.source.number_type()?),
-            b"TENSORS6" => (6, self.source.number_type()?),
-            _ => (1, self.source.number_type()?),
+            b"VECTORS" | b"NORMALS" => (3, self.source.array_type()?),
+            b"TENSORS" => (9, self.source.array_type()?),
+            b"TENSORS6" => (6, self.source.array_type()?),
+            _ => (1, self.source.array_type()?),
         })
     }
 
@@ -221,25 +251,33 @@ impl Reader<'_> {
         self.source.name()?;
         let n_arrays = self.source.count("arrays")?;
         for _ in 0..n_arrays {
-            while self.source.word_if(|word| word == b"METADATA").is_some() {
+            while self.source.word_if(|word| word.eq_ignore_ascii_case(b"metadata")).is_some() {
                 self.source.skip_metadata();
             }
             let name = self.source.name()?;
             let (n_components, n_tuples) = (self.source.count("components")?, self.source.count("tuples")?);
-            let number = self.source.number_type()?;
-            let numbers = self.source.numbers([n_tuples, n_components], number)?;
-            self.keep(&name, n_components, numbers);
+            let array_type = self.source.array_type()?;
+            self.values(&name, [n_tuples, n_components], array_type)?;
         }
         Ok(())
     }
 
     fn keep(&mut self, name: &str, n_components: usize, numbers: Numbers) {
-        let kind = match self.belongs {
-            Belongs::Points(n_points) => {
+        match self.belongs {
+            Belongs::Cells(_) if tells_ghosts(name) => self.ghosts.read(name, &numbers),
+            Belongs::Points(n_points) if !tells_ghosts(name) => {
                 let n_components = u32::try_from(n_components).unwrap_or(0);
                 let n_points = self.points.as_ref().map_or(n_points, Points::len);
-                return self.fields.push(name, n_components, numbers, n_points, &mut self.report);
+                self.fields.push(name, n_components, numbers, n_points, &mut self.report);
             }
+            _ => self.leave_out(name),
+        }
+    }
+
+    /// Reports an array that is left out.
+    fn leave_out(&mut self, name: &str) {
+        let kind = match self.belongs {
+            Belongs::Points(_) => Kind::Field,
             Belongs::Cells(_) => Kind::CellData,
             Belongs::Nothing => Kind::FieldData,
         };
@@ -261,6 +299,9 @@ impl Reader<'_> {
             let place = Place::item("cell", cell);
             let kind = kind_of(cell_type.unwrap_or(-1), place)?;
             let nodes = &self.nodes.nodes[range[0]..range[1]];
+            if self.ghosts.leaves_out(cell, &mut self.report) {
+                continue;
+            }
             cells.push(kind, nodes, n_points, place, &mut self.report)?;
         }
         finish(points, cells, self.fields, self.report)

@@ -5,6 +5,15 @@ use crate::text::{Scanner, Style, parse_integer};
 use crate::volume::scalars::{NumberType, Numbers, push_text};
 use crate::{ScalarType, text};
 
+/// What an array holds, by the name of its type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ArrayType {
+    Numbers(NumberType),
+    /// Zeros and ones, in a binary file eight in a byte.
+    Bits,
+    Texts,
+}
+
 /// The file from behind its first three lines on.
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
@@ -99,24 +108,24 @@ impl<'a> Source<'a> {
         valid.ok_or(MeshError::CountTooLarge { place: self.place(), what, count, limit })
     }
 
+    /// The name of a type, of which an array may be.
+    pub(super) fn array_type(&mut self) -> Result<ArrayType, MeshError> {
+        let word = self.word();
+        let lower = word.map(<[u8]>::to_ascii_lowercase);
+        match lower.as_deref() {
+            Some(b"bit") => Ok(ArrayType::Bits),
+            Some(b"string" | b"utf8_string" | b"unicode_string") => Ok(ArrayType::Texts),
+            _ => {
+                let number = lower.as_deref().and_then(number_type).map(ArrayType::Numbers);
+                number.ok_or_else(|| self.unexpected("a type of VTK", word))
+            }
+        }
+    }
+
     /// The name of a number type.
     pub(super) fn number_type(&mut self) -> Result<NumberType, MeshError> {
         let word = self.word();
-        let kept = |scalar| Some(NumberType::Kept(scalar));
-        let number = match word.map(<[u8]>::to_ascii_lowercase).as_deref() {
-            Some(b"char" | b"signed_char") => kept(ScalarType::I8),
-            Some(b"unsigned_char") => kept(ScalarType::U8),
-            Some(b"short") => kept(ScalarType::I16),
-            Some(b"unsigned_short") => kept(ScalarType::U16),
-            // Ids are written as `int` whatever they are in memory.
-            Some(b"int" | b"vtkidtype") => kept(ScalarType::I32),
-            Some(b"unsigned_int") => kept(ScalarType::U32),
-            Some(b"long" | b"long_long" | b"vtktypeint64") => Some(NumberType::I64),
-            Some(b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64") => Some(NumberType::U64),
-            Some(b"float") => kept(ScalarType::F32),
-            Some(b"double") => kept(ScalarType::F64),
-            _ => None,
-        };
+        let number = word.and_then(|word| number_type(&word.to_ascii_lowercase()));
         number.ok_or_else(|| self.unexpected("a number type", word))
     }
 
@@ -145,6 +154,55 @@ impl<'a> Source<'a> {
         Ok(Numbers { number, bytes })
     }
 
+    /// `n_tuples * n_components` bits, each as a byte. In a binary file they begin behind the end of this
+    /// line, the highest bit of a byte first.
+    pub(super) fn bits(&mut self, [n_tuples, n_components]: [usize; 2]) -> Result<Numbers, MeshError> {
+        let number = NumberType::Kept(ScalarType::U8);
+        if !self.is_binary {
+            return self.numbers([n_tuples, n_components], number);
+        }
+        let count = n_tuples as u64 * n_components as u64;
+        self.take_line();
+        let n_bytes = self.check_count(count.div_ceil(8), 1, "bytes of bits")?;
+        let packed = &self.bytes[self.at..self.at + n_bytes];
+        self.at += n_bytes;
+        let bits = packed.iter().flat_map(|byte| (0..8).rev().map(move |bit| byte >> bit & 1));
+        let count = usize::try_from(count).unwrap_or(usize::MAX);
+        Ok(Numbers { number, bytes: bits.take(count).collect() })
+    }
+
+    /// Skips `n_tuples * n_components` texts. In a text file each has a line; in a binary one its length
+    /// stands before it.
+    pub(super) fn skip_texts(&mut self, [n_tuples, n_components]: [usize; 2]) -> Result<(), MeshError> {
+        self.take_line();
+        let n = self.check_count(n_tuples as u64 * n_components as u64, 1, "texts")?;
+        for _ in 0..n {
+            if self.is_binary {
+                let length = self.text_length()?;
+                let length = self.check_count(length, 1, "bytes of a text")?;
+                self.at += length;
+            } else {
+                self.take_line();
+            }
+        }
+        Ok(())
+    }
+
+    /// Length of a text in a binary file. Its two highest bits say in how many bytes it is written.
+    fn text_length(&mut self) -> Result<u64, MeshError> {
+        let rest = &self.bytes[self.at..];
+        let n_bytes = rest.first().map_or(1, |first| 8 >> (first >> 6));
+        let bytes = rest.get(..n_bytes).ok_or(MeshError::Truncated {
+            place: self.place(),
+            what: "the length of a text",
+            expected: n_bytes as u64,
+            found: rest.len() as u64,
+        })?;
+        self.at += n_bytes;
+        let value = bytes.iter().fold(0, |value, &byte| value << 8 | u64::from(byte));
+        Ok(value & (u64::MAX >> (64 - 8 * n_bytes) >> 2))
+    }
+
     /// Skips information on arrays up to an empty line.
     pub(super) fn skip_metadata(&mut self) {
         self.take_line();
@@ -154,6 +212,25 @@ impl<'a> Source<'a> {
     pub(super) fn unexpected(&self, expected: &'static str, found: Option<&[u8]>) -> MeshError {
         let found = found.map_or_else(|| "the end of the file".to_owned(), crate::error::excerpt);
         MeshError::Unexpected { place: self.place(), expected, found }
+    }
+}
+
+/// The number type of a name in lower case.
+fn number_type(name: &[u8]) -> Option<NumberType> {
+    let kept = |scalar| Some(NumberType::Kept(scalar));
+    match name {
+        b"char" | b"signed_char" | b"vtktypeint8" => kept(ScalarType::I8),
+        b"unsigned_char" | b"vtktypeuint8" => kept(ScalarType::U8),
+        b"short" | b"vtktypeint16" => kept(ScalarType::I16),
+        b"unsigned_short" | b"vtktypeuint16" => kept(ScalarType::U16),
+        // Ids are written as `int` whatever they are in memory.
+        b"int" | b"vtkidtype" | b"vtktypeint32" => kept(ScalarType::I32),
+        b"unsigned_int" | b"vtktypeuint32" => kept(ScalarType::U32),
+        b"long" | b"long_long" | b"vtktypeint64" => Some(NumberType::I64),
+        b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64" => Some(NumberType::U64),
+        b"float" | b"vtktypefloat32" => kept(ScalarType::F32),
+        b"double" | b"vtktypefloat64" => kept(ScalarType::F64),
+        _ => None,
     }
 }
 
@@ -186,5 +263,18 @@ mod tests {
     fn names_are_decoded() {
         assert_eq!(decode(b"total%20energy%"), "total energy%");
         assert_eq!(decode(b"100%2"), "100%2");
+    }
+
+    #[test]
+    fn lengths_of_texts_take_one_to_eight_bytes() {
+        let length = |bytes: &[u8]| {
+            let mut source = Source { bytes, at: 0, line: 1, is_binary: true };
+            source.text_length().map(|length| (length, source.at))
+        };
+        assert_eq!(length(&[0xC7]).unwrap(), (7, 1));
+        assert_eq!(length(&[0x81, 0x02]).unwrap(), (0x102, 2));
+        assert_eq!(length(&[0x40, 1, 2, 3]).unwrap(), (0x1_0203, 4));
+        assert_eq!(length(&[0x3F, 0, 0, 0, 0, 0, 0, 1]).unwrap(), ((0x3F << 56) + 1, 8));
+        assert!(matches!(length(&[0x40, 1]), Err(MeshError::Truncated { .. })));
     }
 }
