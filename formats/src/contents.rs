@@ -171,6 +171,8 @@ kinds! {
     UnusablePoint = "unused point without a usable position", "unused points without a usable position";
     /// Cells that copy those of another piece, are covered by finer ones or are hidden.
     GhostCell = "ghost cell", "ghost cells";
+    /// Cells at points that a mark takes out of the grid.
+    BlankedCell = "blanked cell", "blanked cells";
     /// Bytes behind the end of the mesh.
     TrailingByte = "byte behind the mesh", "bytes behind the mesh";
     /// Values at the vertices of a volume.

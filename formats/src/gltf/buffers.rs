@@ -2,9 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::fs;
-use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -12,6 +10,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::document::Buffer;
 use crate::error::{MeshError, Place, excerpt};
+use crate::input::{path_below, read_below};
 
 /// The bytes of every buffer.
 pub(crate) struct Buffers<'a> {
@@ -98,20 +97,7 @@ fn decode_data(uri: &str) -> Result<Vec<u8>, &'static str> {
 
 /// The path that a relative URI names, if it stays below the folder it starts from.
 fn relative_path(uri: &str) -> Result<PathBuf, &'static str> {
-    let decoded = decode_percent(uri).ok_or("is not valid percent-encoding of UTF-8")?;
-    if decoded.contains(['\\', ':', '\0']) {
-        return Err("is not a plain relative path");
-    }
-    let mut path = PathBuf::new();
-    for component in Path::new(&decoded).components() {
-        match component {
-            Component::Normal(name) => path.push(name),
-            Component::CurDir => {}
-            Component::ParentDir => return Err("leads out of the folder"),
-            Component::RootDir | Component::Prefix(_) => return Err("is an absolute path"),
-        }
-    }
-    if path.as_os_str().is_empty() { Err("is empty") } else { Ok(path) }
+    path_below(&decode_percent(uri).ok_or("is not valid percent-encoding of UTF-8")?)
 }
 
 /// Replaces `%41` and the like; `None` where a sequence is incomplete or the result is not UTF-8.
@@ -131,25 +117,10 @@ fn decode_percent(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-/// The bytes of a regular file in a folder or below it. Links are followed as far as they stay there: an archive can hold a link to
-/// anywhere.
-fn read_below(folder: Option<&Path>, path: &Path) -> Result<Vec<u8>, String> {
-    let unreadable = |error: io::Error| format!("cannot be read: {error}");
-    let folder = folder.ok_or("needs a folder to be looked for in")?;
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let target = fs::canonicalize(folder.join(path)).map_err(unreadable)?;
-    if !target.starts_with(fs::canonicalize(folder).map_err(unreadable)?) {
-        return Err("is a link out of the folder".into());
-    }
-    if !fs::metadata(&target).map_err(unreadable)?.is_file() {
-        return Err("is not a regular file".into());
-    }
-    fs::read(&target).map_err(unreadable)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn load<'a>(uri: &str, byte_length: u64, folder: Option<&Path>) -> Result<Buffers<'a>, MeshError> {
         Buffers::load(&[Buffer { uri: Some(uri.into()), byte_length }], None, folder)

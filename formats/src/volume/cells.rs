@@ -32,7 +32,7 @@ impl CellKind {
 }
 
 /// Cells with a volume, in the order of the file.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Cells {
     kinds: Vec<CellKind>,
     /// Corners of all cells, one cell after the other.
@@ -70,10 +70,10 @@ impl Cells {
         Ok(())
     }
 
-    /// Adds later cells.
-    pub(super) fn append(&mut self, mut later: Self) {
-        self.kinds.append(&mut later.kinds);
-        self.corners.append(&mut later.corners);
+    /// Adds the cells of a later piece, whose vertices are numbered from `first` on in the whole.
+    pub(super) fn append(&mut self, later: Self, first: u32) {
+        self.kinds.extend(later.kinds);
+        self.corners.extend(later.corners.into_iter().map(|corner| first + corner));
     }
 
     /// Number of cells with a volume.

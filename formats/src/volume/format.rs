@@ -17,7 +17,8 @@ use crate::{FileReport, Kind, MeshError, TetrahedronMesh};
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum VolumeFormat {
-    /// VTK's XML format, arrays as text, base64 or raw, plain or compressed by zlib.
+    /// VTK's XML format, arrays as text, base64 or raw, plain or compressed by zlib, LZ4 or LZMA; also
+    /// `.pvtu`, which names the pieces of a grid, and `.pvd`, which names a grid at several times.
     Vtu,
     /// Legacy VTK, text or binary.
     Vtk,
@@ -38,7 +39,7 @@ impl VolumeFormat {
     /// The file extensions, in lower case and without the dot; the first is the one written.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
-            Self::Vtu => &["vtu"],
+            Self::Vtu => &["vtu", "pvtu", "pvd"],
             Self::Vtk => &["vtk"],
             Self::Gmsh => &["msh"],
             Self::Medit => &["mesh", "meshb"],
@@ -108,6 +109,9 @@ pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, FileRepor
         let bytes = read_input(path)?;
         let format = VolumeFormat::detect(&bytes, VolumeFormat::from_path(path))
             .ok_or(MeshError::UnknownVolumeFormat)?;
+        if format == VolumeFormat::Vtu {
+            return vtu::read(&bytes, path.parent());
+        }
         if format != VolumeFormat::Tetgen {
             return read_volume_bytes(&bytes, format);
         }
@@ -129,7 +133,7 @@ pub fn read_volume_bytes(
     format: VolumeFormat,
 ) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     match format {
-        VolumeFormat::Vtu => vtu::read(bytes),
+        VolumeFormat::Vtu => vtu::read(bytes, None),
         VolumeFormat::Vtk => vtk::read(bytes),
         VolumeFormat::Gmsh => gmsh::read(bytes),
         VolumeFormat::Medit if meshb::is_meshb(bytes) => meshb::read(bytes),

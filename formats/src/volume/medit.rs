@@ -109,8 +109,8 @@ impl<'a> Reader<'a> {
                     index,
                     count: self.points.len() as u64,
                 })?;
-                if node < kind.n_corners() {
-                    corners[node] = from_zero;
+                if let Some(corner) = corners.get_mut(node) {
+                    *corner = from_zero;
                 }
             }
             self.reference()?;

@@ -1,13 +1,12 @@
 //! The data arrays of a VTU file, in any of their encodings.
 
 use std::cell::Cell;
-use std::io::Read;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use flate2::read::ZlibDecoder;
 use roxmltree::Node;
 
+use super::compression::Compressor;
 use crate::ScalarType;
 use crate::error::{MeshError, Place, quoted_name};
 use crate::volume::scalars::{NumberType, Numbers, push_text};
@@ -17,7 +16,7 @@ pub(super) struct Encoding<'a> {
     pub is_big_endian: bool,
     /// Bytes of the lengths before an array.
     pub header_bytes: usize,
-    pub is_compressed: bool,
+    pub compressor: Option<Compressor>,
     /// What stands behind the underscore of the appended data.
     pub appended: &'a [u8],
     /// Whether that is base64 and not raw.
@@ -27,28 +26,25 @@ pub(super) struct Encoding<'a> {
     pub n_unused: Cell<usize>,
 }
 
-/// Zlib makes no more of a byte than this many.
-const MAX_INFLATION: u64 = 1032;
-
 impl Encoding<'_> {
     /// The numbers of a `DataArray`.
     pub(super) fn numbers(&self, array: Node<'_, '_>) -> Result<Numbers, MeshError> {
-        let number = number_type(array)?;
+        let element = element_of(array)?;
         let text = || array.text().unwrap_or("");
         match array.attribute("format").unwrap_or("ascii") {
-            "ascii" => from_text(number, text()),
+            "ascii" => from_text(element, text()),
             "binary" => {
                 let text: String = text().split_ascii_whitespace().collect();
-                self.read_base64(number, text.as_bytes()).map(|(numbers, _)| numbers)
+                self.read_base64(element, text.as_bytes()).map(|(numbers, _)| numbers)
             }
             "appended" => {
                 let offset = array.attribute("offset").and_then(|offset| offset.parse::<usize>().ok());
                 let rest = offset.and_then(|offset| self.appended.get(offset..));
                 let rest = rest.ok_or_else(|| cut_short("the offset of an array", self.appended.len()))?;
                 let (numbers, n_used) = if self.is_appended_base64 {
-                    self.read_base64(number, rest)?
+                    self.read_base64(element, rest)?
                 } else {
-                    self.read_raw(number, rest)?
+                    self.read_raw(element, rest)?
                 };
                 self.use_up(n_used)?;
                 Ok(numbers)
@@ -71,30 +67,30 @@ impl Encoding<'_> {
     }
 
     /// Raw bytes: a length, or a table of compressed blocks, and the data. Gives the bytes used as well.
-    fn read_raw(&self, number: NumberType, bytes: &[u8]) -> Result<(Numbers, usize), MeshError> {
-        if self.is_compressed {
+    fn read_raw(&self, element: Element, bytes: &[u8]) -> Result<(Numbers, usize), MeshError> {
+        if let Some(compressor) = self.compressor {
             let blocks = self.blocks(bytes)?;
             let head_bytes = blocks.header_bytes(self.header_bytes);
-            let data = inflate(&blocks, &bytes[head_bytes..])?;
-            return Ok((self.whole_numbers(number, &data)?, head_bytes + blocks.compressed_bytes()));
+            let data = decompress(compressor, &blocks, &bytes[head_bytes..])?;
+            return Ok((self.whole_numbers(element, &data)?, head_bytes + blocks.compressed_bytes()));
         }
         let length = self.length(bytes, 0)?;
         let data = bytes.get(self.header_bytes..).and_then(|data| data.get(..length));
         let data = data.ok_or_else(|| cut_short("an array", bytes.len()))?;
-        Ok((self.whole_numbers(number, data)?, self.header_bytes + length))
+        Ok((self.whole_numbers(element, data)?, self.header_bytes + length))
     }
 
     /// Base64: the table of compressed blocks is encoded by itself, a plain length together with the data. Gives the characters
     /// used as well.
-    fn read_base64(&self, number: NumberType, text: &[u8]) -> Result<(Numbers, usize), MeshError> {
-        if !self.is_compressed {
+    fn read_base64(&self, element: Element, text: &[u8]) -> Result<(Numbers, usize), MeshError> {
+        let Some(compressor) = self.compressor else {
             // Behind the padding of the first stream another array may begin.
             let head = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
             let n_bytes = self.length(&head, 0)?.saturating_add(self.header_bytes);
             let text = text.get(..padded(n_bytes)).ok_or_else(|| cut_short("an array", text.len()))?;
-            let (numbers, _) = self.read_raw(number, &decode(text)?)?;
+            let (numbers, _) = self.read_raw(element, &decode(text)?)?;
             return Ok((numbers, text.len()));
-        }
+        };
         let start = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
         let n_blocks = self.length(&start, 0)?;
         let table_bytes = n_blocks.saturating_add(3).saturating_mul(self.header_bytes);
@@ -104,10 +100,15 @@ impl Encoding<'_> {
         let data_text = padded(blocks.compressed_bytes());
         let data = text.get(table_text..).and_then(|data| data.get(..data_text));
         let data = decode(data.ok_or_else(|| cut_short("compressed data", text.len()))?)?;
-        Ok((self.whole_numbers(number, &inflate(&blocks, &data)?)?, table_text + data_text))
+        let data = decompress(compressor, &blocks, &data)?;
+        Ok((self.whole_numbers(element, &data)?, table_text + data_text))
     }
 
-    fn whole_numbers(&self, number: NumberType, bytes: &[u8]) -> Result<Numbers, MeshError> {
+    fn whole_numbers(&self, element: Element, bytes: &[u8]) -> Result<Numbers, MeshError> {
+        let Element::Number(number) = element else {
+            let bits = bytes.iter().flat_map(|byte| (0..8).rev().map(move |bit| byte >> bit & 1));
+            return Ok(Numbers { number: element.number(), bytes: bits.collect() });
+        };
         if !bytes.len().is_multiple_of(number.size_bytes()) {
             return Err(cut_short("the last number of an array", bytes.len()));
         }
@@ -161,30 +162,48 @@ impl Blocks {
     }
 }
 
-fn inflate(blocks: &Blocks, mut data: &[u8]) -> Result<Vec<u8>, MeshError> {
-    let mut inflated = Vec::new();
+fn decompress(compressor: Compressor, blocks: &Blocks, mut data: &[u8]) -> Result<Vec<u8>, MeshError> {
+    let mut whole = Vec::new();
     for (i, &n_bytes) in blocks.compressed.iter().enumerate() {
         let is_last = i + 1 == blocks.compressed.len();
         let expected = if is_last { blocks.last_bytes } else { blocks.block_bytes };
         let block = data.get(..n_bytes).ok_or_else(|| cut_short("a compressed block", data.len()))?;
         data = &data[n_bytes..];
-        if expected as u64 > (n_bytes as u64).saturating_mul(MAX_INFLATION) {
+        if expected as u64 > (n_bytes as u64).saturating_mul(compressor.max_inflation()) {
             return Err(cut_short("a compressed block", n_bytes));
         }
-        let before = inflated.len();
-        let mut decoder = ZlibDecoder::new(block).take(expected as u64);
-        decoder.read_to_end(&mut inflated).map_err(|error| unsupported(format!("zlib data: {error}")))?;
-        if inflated.len() - before != expected {
-            return Err(cut_short("a compressed block", inflated.len() - before));
+        let before = whole.len();
+        compressor.decompress(block, expected, &mut whole).map_err(unsupported)?;
+        if whole.len() - before != expected {
+            return Err(cut_short("a compressed block", whole.len() - before));
         }
     }
-    Ok(inflated)
+    Ok(whole)
 }
 
-fn number_type(array: Node<'_, '_>) -> Result<NumberType, MeshError> {
+/// What an array is made of.
+#[derive(Clone, Copy)]
+enum Element {
+    Number(NumberType),
+    /// A bit, the highest of a byte first.
+    Bit,
+}
+
+impl Element {
+    /// Type of the numbers that it becomes.
+    fn number(self) -> NumberType {
+        match self {
+            Self::Number(number) => number,
+            Self::Bit => NumberType::Kept(ScalarType::U8),
+        }
+    }
+}
+
+fn element_of(array: Node<'_, '_>) -> Result<Element, MeshError> {
     let name = array.attribute("type").unwrap_or("");
     let kept = NumberType::Kept;
-    Ok(match name {
+    let number = match name {
+        "Bit" => return Ok(Element::Bit),
         "Int8" => kept(ScalarType::I8),
         "UInt8" => kept(ScalarType::U8),
         "Int16" => kept(ScalarType::I16),
@@ -196,10 +215,12 @@ fn number_type(array: Node<'_, '_>) -> Result<NumberType, MeshError> {
         "Float32" => kept(ScalarType::F32),
         "Float64" => kept(ScalarType::F64),
         _ => return Err(unsupported(format!("data array of type {}", quoted_name(name)))),
-    })
+    };
+    Ok(Element::Number(number))
 }
 
-fn from_text(number: NumberType, text: &str) -> Result<Numbers, MeshError> {
+fn from_text(element: Element, text: &str) -> Result<Numbers, MeshError> {
+    let number = element.number();
     let mut bytes = Vec::new();
     for word in text.split_ascii_whitespace() {
         push_text(&mut bytes, number, word.as_bytes()).ok_or_else(|| MeshError::Unexpected {
