@@ -1,9 +1,10 @@
 //! The command line as a whole; each command's own arguments stand beside it in [`crate::commands`].
 
-use clap::Parser;
+use clap::error::ErrorKind;
+use clap::{ArgMatches, CommandFactory, Parser};
 
 use crate::commands::Command;
-use crate::report::Form;
+use crate::report::{self, Form};
 
 const EXAMPLE: &str = "\
 Example:
@@ -24,6 +25,23 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// Says on stderr that the arguments of a command are wrong, as clap itself says it: with the usage of
+/// the command, and where to find help.
+pub(crate) fn print_wrong_usage(matches: &ArgMatches, message: &str) {
+    let mut command = Arguments::command();
+    command.build();
+    let mut matches = matches;
+    while let Some((name, inner)) = matches.subcommand() {
+        matches = inner;
+        command = match command.find_subcommand(name) {
+            Some(found) => found.clone(),
+            None => break,
+        };
+    }
+    // A line that nobody can read is not worth failing for.
+    let _ = command.error(ErrorKind::ArgumentConflict, report::printable(message)).print();
+}
+
 impl Arguments {
     /// Form in which to print the result.
     pub(crate) fn form(&self) -> Form {
@@ -33,8 +51,6 @@ impl Arguments {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]

@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 use nephrite::BuildError;
 use nephrite_formats::MeshError;
 
-/// Exit status of every failure but an interrupt; wrong usage has 2, which clap gives.
+/// Exit status of a failure that is neither of the two below.
 const FAILED: u8 = 1;
+/// Exit status of wrong usage, as clap has it.
+const WRONG_USAGE: u8 = 2;
 /// Most characters that one cause has in the line.
 const LONGEST_CLAUSE: usize = 400;
 /// Exit status of an interrupt, as shells count it: 128 and the number of SIGINT.
@@ -18,6 +20,12 @@ pub(crate) const INTERRUPTED: u8 = 130;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub(crate) enum Failure {
+    /// Arguments that contradict each other or what the input is.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong with them.
+        message: String,
+    },
     /// A mesh could not be read or written; names its file and the place in it.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -29,32 +37,59 @@ pub(crate) enum Failure {
         /// What is wrong with it.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// A level was asked for that the file does not have.
-    #[error("{}: has levels 0 to {}, not {level}", path.display(), n_levels - 1)]
-    Level {
+    /// A mesh was given where a command needs a file that `build` wrote.
+    #[error(
+        "{0}: this is a mesh; build a file of it first: nephrite build {0} -o {1}",
+        path.display(),
+        path.with_extension("neph").display()
+    )]
+    NotBuilt {
+        /// The mesh.
+        path: PathBuf,
+    },
+    /// A file that `build` wrote was given where a command needs a mesh.
+    #[error(
+        "{0}: this file holds levels and is no mesh; extract a level first: nephrite extract {0} --level 0 -o MESH",
+        path.display()
+    )]
+    IsBuilt {
         /// The file.
         path: PathBuf,
+    },
+    /// A level was asked for that the file does not have.
+    #[error("{file}: level {level} is asked for, the file has levels 0 to {}", n_levels - 1)]
+    Level {
+        /// The file.
+        file: String,
         /// The level asked for.
         level: u32,
         /// Levels there are.
         n_levels: u32,
     },
     /// The output is the input, which it would replace.
-    #[error("{}: is the input, which the output would replace", path.display())]
+    #[error("{}: this file is the input, which the output would replace", path.display())]
     OutputIsInput {
         /// The file named twice.
         path: PathBuf,
     },
-    /// The output's extension names a format for another kind of mesh.
-    #[error("{}: the extension is none of {kind}", path.display())]
+    /// The output's format holds another kind of mesh.
+    #[error("{output}: {format} cannot hold {kind}")]
     Kind {
         /// The output.
-        path: PathBuf,
+        output: String,
+        /// Its format.
+        format: String,
         /// `a volume` or `a surface`.
         kind: &'static str,
     },
+    /// No file to build in the folders that were named.
+    #[error("{}: no mesh or volume in it", folder.display())]
+    NoParts {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// Some parts of a database could not be built; the others were.
-    #[error("{}: {n_failed} of {n_parts} parts failed, see its manifest", folder.display())]
+    #[error("{}: {n_failed} of {n_parts} parts failed, see manifest.jsonl there", folder.display())]
     Parts {
         /// Folder of the database.
         folder: PathBuf,
@@ -64,7 +99,10 @@ pub(crate) enum Failure {
         n_parts: usize,
     },
     /// Somebody pressed Ctrl-C while a database was built.
-    #[error("{}: interrupted with {n_done} of {n_parts} parts done; the same command goes on with the others", folder.display())]
+    #[error(
+        "{}: interrupted with {n_done} of {n_parts} parts done; the same command builds the others",
+        folder.display()
+    )]
     InterruptedParts {
         /// Folder of the database.
         folder: PathBuf,
@@ -76,9 +114,22 @@ pub(crate) enum Failure {
     /// Somebody pressed Ctrl-C.
     #[error("interrupted, nothing was written")]
     Interrupted,
+    /// The program panicked.
+    #[error("a bug in this program: {message}{}", place.as_ref().map_or(String::new(), |place| format!(" at {place}")))]
+    Bug {
+        /// What the panic said.
+        message: String,
+        /// File and line of the code.
+        place: Option<String>,
+    },
 }
 
 impl Failure {
+    /// Wrong usage.
+    pub(crate) fn usage(message: impl Into<String>) -> Self {
+        Self::Usage { message: message.into() }
+    }
+
     /// A failure that concerns one file.
     pub(crate) fn file(path: impl AsRef<Path>, source: impl Error + Send + Sync + 'static) -> Self {
         Self::File { path: path.as_ref().to_owned(), source: Box::new(source) }
@@ -117,7 +168,11 @@ impl Failure {
 
     /// The process's exit status.
     pub(crate) fn status(&self) -> u8 {
-        if matches!(self, Self::Interrupted | Self::InterruptedParts { .. }) { INTERRUPTED } else { FAILED }
+        match self {
+            Self::Interrupted | Self::InterruptedParts { .. } => INTERRUPTED,
+            Self::Usage { .. } => WRONG_USAGE,
+            _ => FAILED,
+        }
     }
 }
 
@@ -137,5 +192,6 @@ mod tests {
     fn an_interrupt_has_the_status_of_a_signal() {
         assert_eq!(Failure::Interrupted.status(), 130);
         assert_eq!(Failure::OutputIsInput { path: "a".into() }.status(), 1);
+        assert_eq!(Failure::usage("no").status(), 2);
     }
 }

@@ -143,6 +143,11 @@ pub(crate) fn reading(report: &FileReport) -> String {
     if words.is_empty() { "nothing to note".to_owned() } else { words.join("; ") }
 }
 
+/// Notes, one to a line.
+pub(crate) fn notes(notes: &[String]) -> String {
+    notes.iter().map(|note| format!("  {note}\n")).collect()
+}
+
 /// Lines of a name and what it is, the names as wide as the widest.
 pub(crate) fn list(rows: &[(&str, String)]) -> String {
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);

@@ -1,16 +1,20 @@
-//! Paths a command is given: checked before hours of work go towards them.
+//! Paths that a command is given, checked before hours of work.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use nephrite::store::OpenError;
 use nephrite::{Lod, TetrahedronMesh, TriangleMesh};
-use nephrite_formats::{FileReport, MeshError, MeshFormat, VolumeFormat};
+use nephrite_formats::neph::{Directory, MAGIC, MAX_HEAD_BYTES};
+use nephrite_formats::{FileReport, VolumeFormat};
 
 use crate::failure::Failure;
+use crate::meshes;
 use crate::report;
+use crate::streams::{Source, Target};
 
-/// Reads a mesh.
+/// Reads a surface.
 ///
 /// # Errors
 ///
@@ -34,32 +38,81 @@ pub(crate) fn read_volume(
     })
 }
 
-/// Prints to stderr what a file held that was left out or changed.
-pub(crate) fn tell(path: &Path, report: &FileReport) {
-    for note in report.notes() {
-        report::note(&format!("{}: {note}", path.display()));
-    }
-}
-
 /// Whether a path names a volume by its extension.
 pub(crate) fn is_volume(path: &Path) -> bool {
     VolumeFormat::from_path(path).is_some()
 }
 
-/// Opens a file that `build` wrote. It is read, not mapped: nobody vouches for a path from a command line.
+/// Opens a file that `build` wrote. The file is read and not mapped, as anybody may change it meanwhile.
 ///
 /// # Errors
 ///
-/// Whatever is wrong with its head.
-pub(crate) fn open_lod(path: &Path) -> Result<Lod, Failure> {
-    Lod::open(path).map_err(|source| Failure::file(path, source))
+/// [`Failure::NotBuilt`] for a mesh, and those of the system and of a damaged head.
+pub(crate) fn open_lod(source: &Source) -> Result<Lod, Failure> {
+    match source {
+        Source::Stdin => {
+            let failed = |error| Failure::system("standard input", error);
+            let bytes = source.read().map_err(failed)?;
+            Lod::from_bytes(&bytes).map_err(|error| Failure::file(source.to_string(), error))
+        }
+        Source::File(path) => open_file(path),
+    }
 }
 
-/// Checks that a file can be put where `output` says and that it is none of the `inputs`.
+/// As [`open_lod`], for a path.
+///
+/// # Errors
+///
+/// As [`open_lod`].
+pub(crate) fn open_file(path: &Path) -> Result<Lod, Failure> {
+    Lod::open(path).map_err(|error| not_built(path, error))
+}
+
+/// A mesh is told as such, anything else by what is wrong with it.
+fn not_built(path: &Path, error: OpenError) -> Failure {
+    let is_refused = matches!(error, OpenError::Format(_));
+    if is_refused && !starts_with_magic(path) && meshes::looks_like_mesh(path).is_some() {
+        return Failure::NotBuilt { path: path.to_owned() };
+    }
+    Failure::file(path, error)
+}
+
+fn starts_with_magic(path: &Path) -> bool {
+    let mut start = [0; MAGIC.len()];
+    fs::File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == MAGIC
+}
+
+/// Checks that a file is one that `build` wrote, whole by its length. Reads its head only.
+///
+/// # Errors
+///
+/// As [`open_lod`].
+pub(crate) fn check_head(path: &Path) -> Result<(), Failure> {
+    let failed = |error: io::Error| Failure::file(path, error);
+    let metadata = fs::metadata(path).map_err(failed)?;
+    if !metadata.is_file() {
+        return Err(failed(io::Error::other("is not a file")));
+    }
+    let mut head = Vec::new();
+    let file = fs::File::open(path).map_err(failed)?;
+    file.take(MAX_HEAD_BYTES as u64).read_to_end(&mut head).map_err(failed)?;
+    Directory::read(&head, metadata.len()).map(drop).map_err(|error| not_built(path, error.into()))
+}
+
+/// Checks that a file can be put where `target` says and that it is none of the `inputs`.
 ///
 /// # Errors
 ///
 /// A folder that is missing, a folder in the file's place, or an output that would replace an input.
+pub(crate) fn check_target(target: &Target, inputs: &[&Path]) -> Result<(), Failure> {
+    target.path().map_or(Ok(()), |path| check_output(path, inputs))
+}
+
+/// As [`check_target`], for a file.
+///
+/// # Errors
+///
+/// As [`check_target`].
 pub(crate) fn check_output(output: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     let folder = match output.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -79,28 +132,22 @@ pub(crate) fn check_output(output: &Path, inputs: &[&Path]) -> Result<(), Failur
     }
 }
 
-/// As [`check_output`], and that the extension names a mesh format that can be written.
+/// Refuses a picture under a name that says it is something else than SVG.
 ///
 /// # Errors
 ///
-/// As [`check_output`], or an extension without a writer.
-pub(crate) fn check_mesh_output(output: &Path, inputs: &[&Path]) -> Result<(), Failure> {
-    if MeshFormat::from_path(output).is_none_or(|format| format == MeshFormat::Gltf) {
-        let extension = output.extension().unwrap_or_default().to_string_lossy().into_owned();
-        return Err(MeshError::UnknownExtension { extension }.in_file(output).into());
+/// [`Failure::Usage`].
+pub(crate) fn check_is_svg(target: &Target) -> Result<(), Failure> {
+    let extension = target.path().and_then(Path::extension);
+    match extension.filter(|extension| !extension.eq_ignore_ascii_case("svg")) {
+        Some(_) => Err(Failure::usage(format!("{target} must end in .svg: the picture is an SVG"))),
+        None => Ok(()),
     }
-    check_output(output, inputs)
 }
 
-/// As [`check_output`], and that the extension names a volume format that can be written.
-///
-/// # Errors
-///
-/// As [`check_output`], or an extension without a writer.
-pub(crate) fn check_volume_output(output: &Path, inputs: &[&Path]) -> Result<(), Failure> {
-    if VolumeFormat::from_path(output).is_none_or(|format| !format.is_written()) {
-        let extension = output.extension().unwrap_or_default().to_string_lossy().into_owned();
-        return Err(MeshError::UnknownVolumeExtension { extension }.in_file(output).into());
+/// Prints on standard error what a reader or writer left out or changed.
+pub(crate) fn tell(name: &str, notes: &[String]) {
+    for note in notes {
+        report::note(&format!("{name}: {note}"));
     }
-    check_output(output, inputs)
 }

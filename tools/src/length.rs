@@ -1,4 +1,7 @@
-//! Lengths as a person types them: in the mesh's own units, or in percent of its bounding box diagonal.
+//! Lengths and counts as a person types them: absolute, or in percent.
+//!
+//! A length is in the mesh's own units or in percent of its bounding box diagonal; a count of simplices
+//! is a number or in percent of those of the input.
 
 use std::str::FromStr;
 
@@ -20,7 +23,7 @@ impl Length {
         }
     }
 
-    /// Whether it is no length at all.
+    /// True for zero, in either unit.
     pub(crate) fn is_zero(self) -> bool {
         matches!(self, Self::MeshUnits(0.0) | Self::PercentOfDiagonal(0.0))
     }
@@ -53,6 +56,46 @@ impl FromStr for Length {
     }
 }
 
+/// A count of simplices given on the command line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Count {
+    /// So many: `5000`.
+    Number(u32),
+    /// In percent of the simplices of the input: `10%`.
+    PercentOfInput(f64),
+}
+
+impl Count {
+    /// The count, for an input of so many simplices; rounded down.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "between 0 and a count of 32 bits"
+    )]
+    pub(crate) fn of(self, n_input: usize) -> usize {
+        match self {
+            Self::Number(n) => n as usize,
+            Self::PercentOfInput(percent) => (percent * n_input as f64 / 100.0) as usize,
+        }
+    }
+}
+
+impl FromStr for Count {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, &'static str> {
+        let Some(percent) = text.strip_suffix('%') else {
+            return text
+                .parse()
+                .map(Self::Number)
+                .map_err(|_| "expected a count such as 5000, or a part of the input such as 10%");
+        };
+        let percent = percent.trim_end().parse().ok().filter(|percent| (0.0..=100.0).contains(percent));
+        percent.map(Self::PercentOfInput).ok_or("expected 0% to 100% of the input")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +107,19 @@ mod tests {
         assert_eq!("5 %".parse(), Ok(Length::PercentOfDiagonal(5.0)));
         assert_eq!(Length::PercentOfDiagonal(0.5).in_mesh_units(40.0), 0.2);
         assert_eq!(Length::MeshUnits(3.0).in_mesh_units(40.0), 3.0);
+    }
+
+    #[test]
+    fn counts_are_numbers_or_percent_of_the_input() {
+        let count = |text: &str, n_input| text.parse::<Count>().map(|count| count.of(n_input));
+        assert_eq!(count("5000", 7), Ok(5000));
+        assert_eq!(count("10%", 5120), Ok(512));
+        assert_eq!(count("7 %", 100), Ok(7));
+        assert_eq!(count("0.1%", 69_451), Ok(69));
+        assert_eq!(count("100%", usize::from(u16::MAX)), Ok(65_535));
+        for text in ["", "%", "-5", "1.5", "101%", "-1%", "nan%", "1e9"] {
+            assert!(text.parse::<Count>().is_err(), "{text:?}");
+        }
     }
 
     #[test]

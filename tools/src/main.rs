@@ -12,8 +12,10 @@ mod figures;
 mod files;
 mod interrupt;
 mod length;
+mod meshes;
 #[cfg(feature = "view")]
 mod page;
+mod panics;
 mod plot;
 mod progress;
 mod ramp;
@@ -21,27 +23,32 @@ mod report;
 #[cfg(feature = "view")]
 mod serve;
 mod stopwatch;
+mod streams;
 mod threads;
 mod words;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::arguments::Arguments;
 use crate::failure::Failure;
 
 fn main() -> ExitCode {
     allocator::return_what_is_freed();
-    let arguments = Arguments::parse();
-    let printed = arguments.command.run(arguments.form()).and_then(|report| {
-        report.print(arguments.form()).map_err(|source| Failure::system("standard output", source))
+    panics::note_silently();
+    let matches = Arguments::command().get_matches();
+    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let done = panics::catch(|| {
+        let report = arguments.command.run(arguments.form())?;
+        let stream = arguments.command.report_stream();
+        let printed = report.print(arguments.form(), stream);
+        printed.map_err(|source| Failure::system(stream.name(), source))
     });
-    match printed {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            report::note(&failure.line());
-            ExitCode::from(failure.status())
-        }
+    let Err(failure) = done else { return ExitCode::SUCCESS };
+    match &failure {
+        Failure::Usage { message } => arguments::print_wrong_usage(&matches, message),
+        failure => report::note(&failure.line()),
     }
+    ExitCode::from(failure.status())
 }

@@ -1,15 +1,34 @@
-//! What a command has to say, once: as text for a person or as one JSON object for a script.
+//! The result of a command, in two forms: text for a person, one JSON object for a script.
 
 use std::io::{self, Write};
 
 use serde_json::Value;
 
-/// The result of a command in both its forms.
+/// The result of a command in both forms.
 pub(crate) struct Report {
     /// For a person; ends in a newline.
     pub(crate) text: String,
-    /// For a script: one object; null for a command that has said all it has to say.
+    /// For a script: one object. `Null` if the command has printed its result already.
     pub(crate) json: Value,
+}
+
+/// Where a result is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stream {
+    /// Standard output.
+    Stdout,
+    /// Standard error, for a command whose mesh or file goes to standard output.
+    Stderr,
+}
+
+impl Stream {
+    /// Its name in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Stdout => "standard output",
+            Self::Stderr => "standard error",
+        }
+    }
 }
 
 /// Form in which a result is printed.
@@ -22,38 +41,47 @@ pub(crate) enum Form {
 }
 
 impl Report {
-    /// Writes the result to stdout; a reader that has gone away is no failure.
+    /// Prints the result. A reader that has gone away is no failure.
     ///
     /// # Errors
     ///
-    /// Whatever else stdout reports, a full disk for one.
-    pub(crate) fn print(&self, form: Form) -> io::Result<()> {
-        let mut stdout = io::stdout().lock();
-        let printed = match form {
-            Form::Text => stdout.write_all(printable(&self.text).as_bytes()),
-            Form::Json if self.json.is_null() => Ok(()),
-            Form::Json => writeln!(stdout, "{}", escaped(&self.json.to_string())),
+    /// Any other error of the stream, such as a full disk.
+    pub(crate) fn print(&self, form: Form, stream: Stream) -> io::Result<()> {
+        let text = match form {
+            Form::Text => printable(&self.text),
+            Form::Json if self.json.is_null() => String::new(),
+            Form::Json => escaped(&self.json.to_string()) + "\n",
         };
-        match printed.and_then(|()| stdout.flush()) {
+        let printed = match stream {
+            Stream::Stdout => print_to(io::stdout().lock(), &text),
+            Stream::Stderr => print_to(io::stderr().lock(), &text),
+        };
+        match printed {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             other => other,
         }
     }
 }
 
-/// Writes a line to stderr, beside the results.
+fn print_to(mut out: impl Write, text: &str) -> io::Result<()> {
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}
+
+/// Prints a line on standard error.
 pub(crate) fn note(line: &str) {
     // A note that nobody can read is not worth failing for.
     let _ = writeln!(io::stderr(), "{}", printable(line));
 }
 
-/// Text without characters that steer a terminal: names and metadata come from files that anybody may have made.
-fn printable(text: &str) -> String {
+/// Replaces the characters that steer a terminal: names and metadata may come from files of strangers.
+pub(crate) fn printable(text: &str) -> String {
     let is_harmless = |c: char| !steers(c) || matches!(c, '\n' | '\t');
     text.chars().map(|c| if is_harmless(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
 
-/// JSON with such characters as escapes, which means the same: none stands outside of a string there.
+/// Writes those characters as JSON escapes, which have the same meaning: in JSON they occur only inside
+/// strings.
 fn escaped(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {
@@ -66,7 +94,7 @@ fn escaped(json: &str) -> String {
     escaped
 }
 
-/// Control characters, of both sets, and what turns the direction of writing so that a line reads as it is not.
+/// True for control characters and for those that change the direction of writing.
 fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

@@ -111,3 +111,27 @@ fn a_second_run_builds_only_what_changed() {
     assert_eq!(index(&workplace.json(line), "parts_unchanged"), 3);
     assert_eq!(index(&workplace.json(&format!("{line} --levels 5")), "parts"), 4);
 }
+
+#[test]
+fn folders_of_folders_are_parts_too() {
+    let workplace = Workplace::new();
+    std::fs::create_dir_all(workplace.path("parts/a/deep")).unwrap();
+    std::fs::create_dir_all(workplace.path("empty/inside")).unwrap();
+    for part in ["parts/top.ply", "parts/a/axle.stl", "parts/a/deep/wheel.obj"] {
+        workplace.done(&format!("generate cosine --side 8 -o {part}"));
+    }
+    workplace.write("parts/notes.txt", "to do");
+    workplace.write("parts/a/deep/wheel.mtl", "newmtl steel");
+    let run = workplace.json("build parts --output-dir parts/db");
+    assert_eq!(index(&run, "parts"), 3);
+    assert_eq!(run["left_out"], serde_json::json!(["parts/notes.txt"]));
+    for name in ["top", "axle", "wheel"] {
+        assert!(workplace.path(format!("parts/db/{name}.neph")).exists(), "{name}");
+    }
+    // The database lies among the parts and is none of them.
+    let text = workplace.done("build parts --output-dir parts/db");
+    assert!(text.contains("3 parts, 3 of them unchanged") && text.contains("notes.txt"), "{text}");
+    let failure = workplace.failure("build empty --output-dir none");
+    assert!(failure.ends_with("empty: no mesh or volume in it"), "{failure}");
+    assert!(!workplace.path("none").exists());
+}

@@ -174,6 +174,16 @@ fn what_cannot_be_served_is_told() {
     let Some((place, bytes)) = place_with_file() else { return };
     assert!(place.failure("view none.neph --no-open").contains("none.neph"));
     assert!(place.failure("view . --no-open").contains("is not a file"));
+    place.write("README.md", "# About\n");
+    let failure = place.failure("view README.md --no-open");
+    assert!(failure.starts_with("nephrite: README.md: ") && failure.contains(".neph"), "{failure}");
+    let failure = place.failure("view ball.neph in.ply --no-open");
+    assert!(failure.ends_with("build a file of it first: nephrite build in.ply -o in.neph"), "{failure}");
+    place.write("cut.neph", &bytes[..bytes.len() - 1]);
+    assert!(place.failure("view cut.neph --no-open").starts_with("nephrite: cut.neph: "));
+    place.write("head.neph", &bytes[..100]);
+    assert!(place.failure("view head.neph --export other").starts_with("nephrite: head.neph: "));
+    assert!(!place.path("other").exists());
     assert!(place.failure("view ball.neph --no-open --address 192.0.2.1").contains("192.0.2.1"));
     let viewer = Viewer::start(&place, &["ball.neph"]);
     let port = viewer.address.rsplit(':').next().expect("a port");

@@ -50,7 +50,6 @@ fn kinds_are_not_mixed_up() {
     for line in [
         "extract volume.neph --level 0 -o lod.ply",
         "extract surface.neph --level 0 -o lod.vtu",
-        "extract surface.neph --level 0 --boundary -o lod.ply",
         "extract volume.neph --level 0 -o lod.msh",
         "build in.ply -o other.neph --method fusion",
         "generate box -o box.ply",
@@ -59,6 +58,43 @@ fn kinds_are_not_mixed_up() {
         assert_eq!(run.status, 1, "{line}: {}", run.stderr);
         assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     }
+    for (line, option) in [
+        ("extract surface.neph --level 0 --boundary -o lod.ply", "--boundary"),
+        ("extract surface.neph --level 0 --slice 0,0,1,0 -o lod.ply", "--slice"),
+        ("extract surface.neph --tetrahedra 50 -o lod.ply", "--tetrahedra"),
+        ("extract volume.neph --triangles 50 -o lod.vtu", "--tetrahedra"),
+    ] {
+        let run = place.run(line);
+        assert_eq!(run.status, 2, "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(option) && run.stderr.contains("holds a"), "{}", run.stderr);
+    }
+    assert_eq!(place.files(), ["in.ply", "in.vtk", "surface.neph", "volume.neph"]);
+}
+
+/// Of a volume, `measure` takes the boundary, also beside a surface; the same grid in pieces is one grid.
+#[test]
+fn a_volume_is_measured_by_its_boundary() {
+    let place = Workplace::new();
+    place.done("generate ball --cells 6 -o in.vtu");
+    place.done("build in.vtu -o out.neph");
+    place.done("extract out.neph --level 0 --boundary -o boundary.ply");
+    let measure = place.json("measure in.vtu boundary.ply --samples 2000");
+    assert!(number(&measure, "max") < 1e-12, "{measure}");
+    assert!(measure["fields"].is_null(), "{measure}");
+    assert!(place.done("measure boundary.ply in.vtu --samples 100").contains("in.vtu, the boundary, "));
+
+    // Both tetrahedra have nodes of their own where they meet.
+    let split =
+        TWO_TETRAHEDRA.replace("POINTS 5", "POINTS 8").replace("1 1 1\n", "1 1 1 1 0 0 0 1 0 0 0 1\n");
+    let split = split.replace("4 1 2 3 4", "4 5 6 7 4").replace("POINT_DATA 5", "POINT_DATA 8");
+    place.write(
+        "split.vtk",
+        split.replace("0 1 2 3 4\n", "0 1 2 3 4 1 2 3\n").replace("4 0 1 2 3 4 1 2 3", "4 0 1 2 3"),
+    );
+    place.write("whole.vtk", TWO_TETRAHEDRA);
+    let measure = place.json("measure whole.vtk split.vtk --samples 2000");
+    assert!(number(&measure, "max") < 1e-12, "{measure}");
+    assert_eq!(measure["triangles"], 6, "no wall inside");
 }
 
 /// Two tetrahedra with a field, as text.

@@ -23,7 +23,7 @@ use super::build::{Arguments, Input, write};
 use super::manifest::{Facts, Line, Manifest};
 use crate::failure::Failure;
 use crate::report::{self, Report};
-use crate::{figures, files, interrupt};
+use crate::{figures, files, interrupt, panics};
 
 /// Points of a part's curve that its line keeps.
 const MAX_CURVE_POINTS: usize = 32;
@@ -31,8 +31,9 @@ const MAX_CURVE_POINTS: usize = 32;
 /// Builds every part that is new or has changed.
 pub(super) fn run(arguments: &Arguments, folder: &Path) -> Result<Report, Failure> {
     let start = Instant::now();
+    let listed = Parts::list(arguments.parts(), folder)?;
     fs::create_dir_all(folder).map_err(|source| Failure::file(folder, source))?;
-    let parts = list_parts(arguments.parts())?;
+    let parts = &listed.parts;
     let (manifest, known) = Manifest::open(folder)?;
     let lines: Vec<Line> = parts
         .par_iter()
@@ -58,51 +59,136 @@ pub(super) fn run(arguments: &Arguments, folder: &Path) -> Result<Report, Failur
         if tetrahedra > 0 { format!(", {} tetrahedra", figures::count(tetrahedra)) } else { String::new() };
     Ok(Report {
         text: format!(
-            "{}: {} parts, {} of them unchanged, {} triangles{volumes}, {}\n",
+            "{}: {} parts, {} of them unchanged, {} triangles{volumes}, {}\n{}",
             folder.display(),
             figures::count(lines.len()),
             figures::count(n_unchanged),
             figures::count(triangles),
-            figures::time(seconds)
+            figures::time(seconds),
+            listed.left_out_text()
         ),
         json: json!({
             "parts": lines.len(),
             "parts_unchanged": n_unchanged,
             "triangles_in": triangles,
             "tetrahedra_in": tetrahedra,
+            "left_out": listed.left_out.iter().map(|path| path.to_string_lossy()).collect::<Vec<_>>(),
             "seconds": seconds.as_secs_f64(),
         }),
     })
 }
 
-/// Parts and the names of their files; a folder stands for the meshes and volumes in it.
-fn list_parts<'a>(named: impl Iterator<Item = &'a PathBuf>) -> Result<Vec<(PathBuf, String)>, Failure> {
-    let mut parts = Vec::new();
-    for path in named {
-        if path.is_dir() {
-            let entries = fs::read_dir(path).map_err(|source| Failure::file(path, source))?;
-            let inside = entries.filter_map(|entry| Some(entry.ok()?.path()));
-            parts.extend(inside.filter(|path| path.is_file() && is_part(path)));
-        } else {
-            parts.push(path.clone());
+/// What was named: the parts, each with the name of its file, and other files of the folders.
+struct Parts {
+    parts: Vec<(PathBuf, String)>,
+    left_out: Vec<PathBuf>,
+}
+
+impl Parts {
+    /// A folder stands for all meshes and volumes in it and in its folders. The database itself, `db`, is
+    /// none of them.
+    fn list<'a>(named: impl Iterator<Item = &'a PathBuf>, db: &Path) -> Result<Self, Failure> {
+        // Not there yet, it holds nothing that could be taken for a part.
+        let db = fs::canonicalize(db).unwrap_or_default();
+        let (mut parts, mut left_out) = (Vec::new(), Vec::new());
+        for path in named {
+            if !path.is_dir() {
+                parts.push(path.clone());
+                continue;
+            }
+            let n_before = parts.len();
+            list_folder(path, &db, &mut parts, &mut left_out)?;
+            if parts.len() == n_before {
+                return Err(Failure::NoParts { folder: path.clone() });
+            }
+        }
+        parts.sort();
+        parts.dedup();
+        left_out.sort();
+        left_out.dedup();
+        let names = names(&parts);
+        Ok(Self { parts: parts.into_iter().zip(names).collect(), left_out })
+    }
+
+    /// Files that are left out, in words; empty if there are none.
+    fn left_out_text(&self) -> String {
+        const SHOWN: usize = 8;
+        let names = self.left_out.iter().take(SHOWN).map(|path| path.display().to_string());
+        let names = names.collect::<Vec<_>>().join(", ");
+        match self.left_out.len() {
+            0 => String::new(),
+            n if n <= SHOWN => format!("  left out, as they are no meshes by their names: {names}\n"),
+            n => format!(
+                "  left out, as they are no meshes by their names: {names} and {} more\n",
+                figures::count(n - SHOWN)
+            ),
         }
     }
-    parts.sort();
-    parts.dedup();
+}
+
+/// Adds the parts of a folder and of all folders in it. Links to folders are not followed: they may lead
+/// back.
+fn list_folder(
+    named: &Path,
+    db: &Path,
+    parts: &mut Vec<PathBuf>,
+    left_out: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    let mut folders = vec![named.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let failed = |source| Failure::file(&folder, source);
+        let is_db = fs::canonicalize(&folder).map_err(failed)? == db;
+        if is_db && folder != named {
+            continue;
+        }
+        for entry in fs::read_dir(&folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let path = entry.path();
+            if entry.file_type().map_err(failed)?.is_dir() {
+                folders.push(path);
+            } else if path.is_file() && is_part(&path) {
+                parts.push(path);
+            } else if !(is_companion(&path) || is_db && is_of_database(&path)) {
+                left_out.push(path);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A file name for each part: its own, where several have the same told apart by their paths, and by
+/// numbers where a name looks like that.
+fn names(parts: &[PathBuf]) -> Vec<String> {
     let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
     parts.iter().for_each(|part| *uses.entry(stem(part)).or_default() += 1);
     let mut taken = HashSet::new();
-    let mut name = |part: &Path| {
+    let mut name = |part: &PathBuf| {
         let stem = stem(part);
         let path = neph::checksum(part.as_os_str().as_encoded_bytes());
-        // Parts of one name in several folders are told apart by their paths, and by numbers where a name looks like that.
         let plain = (uses.get(&stem) == Some(&1)).then(|| format!("{stem}.neph"));
         let numbered = (2_u64..).map(|number| format!("{stem}-{path:016x}-{number}.neph"));
         let names = plain.into_iter().chain([format!("{stem}-{path:016x}.neph")]).chain(numbered);
         names.into_iter().find(|name| taken.insert(name.clone())).unwrap_or_default()
     };
-    Ok(parts.iter().map(|part| (part.clone(), name(part))).collect())
+    parts.iter().map(&mut name).collect()
+}
+
+/// True for what `build` writes into a database.
+fn is_of_database(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "neph" || extension == "jsonl")
+}
+
+/// True for files that belong to a mesh beside them: the nodes of TetGen, materials and buffers.
+fn is_companion(path: &Path) -> bool {
+    let Some(extension) = path.extension().and_then(|extension| extension.to_str()) else { return false };
+    let has_beside = |other: &str| path.with_extension(other).is_file();
+    match extension.to_ascii_lowercase().as_str() {
+        "node" => has_beside("ele"),
+        "mtl" => has_beside("obj"),
+        "bin" => has_beside("gltf"),
+        _ => false,
+    }
 }
 
 /// Whether a file in a folder is a part by its name. Of TetGen's two files one stands for both; PLOT3D's extensions say too little.
@@ -146,7 +232,7 @@ fn build_part(
             return Some(known.clone());
         }
     }
-    match build_one(&arguments.for_part(part, output), bytes) {
+    match panics::catch(|| build_one(&arguments.for_part(part, output), bytes)) {
         Ok(Value::Object(built)) => {
             let mut line = json!({
                 "part": part_name,
@@ -235,7 +321,7 @@ fn curve(arguments: &Arguments, history: &History) -> Result<Vec<Value>, Failure
 /// Builds a part that is a volume.
 fn build_volume(arguments: &Arguments) -> Result<Value, Failure> {
     let mut built = arguments.volume().run()?.json;
-    let lod = files::open_lod(arguments.output())?;
+    let lod = files::open_file(arguments.output())?;
     let stride = lod.curve().len().div_ceil(MAX_CURVE_POINTS).max(1);
     let last = lod.curve().len() - 1;
     let shown = lod.curve().enumerate().filter(|(at, _)| at % stride == 0 || *at == last);

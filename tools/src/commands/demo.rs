@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let build_time = start.elapsed();
     let file = folder.join("ripple.neph");
     write(&file, &build)?;
-    let lod = files::open_lod(&file)?;
+    let lod = files::open_file(&file)?;
     let mut rows = Vec::new();
     for (percent, mesh_name) in ROWS {
         interrupt::check()?;

@@ -1,35 +1,41 @@
-//! `nephrite extract`: one level of detail out of a file, as a mesh.
+//! `nephrite extract`: one level of detail of a file, written as a mesh.
 
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use nephrite::query::{INFLECTION_RATIO, QueryError, Simplex};
 use nephrite::volume::Plane;
-use nephrite::{Cut, Lod, TetrahedronMesh, TriangleMesh};
-use nephrite_formats::{FileReport, MeshError};
+use nephrite::{Cut, Lod};
+use nephrite_formats::FileFormat;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::length::Length;
+use crate::length::{Count, Length};
+use crate::meshes::{self, Mesh};
 use crate::report::{self, Report};
+use crate::streams::{Source, Target};
 use crate::{figures, files, interrupt};
 
 /// Write one level of detail as a mesh.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// File that `build` wrote
-    file: PathBuf,
+    /// File that `build` wrote, or - for standard input
+    file: Source,
 
-    /// Mesh to write; its extension chooses the format: ply, obj, stl, off or glb, for volumes vtu or vtk
+    /// Mesh to write, or - for standard output. The extension chooses the format: ply, obj, stl, off or
+    /// glb for surfaces, vtu or vtk for volumes
     #[arg(short, long, value_name = "MESH")]
-    output: PathBuf,
+    output: Target,
 
-    /// Of a volume, only the surface around it, as a mesh of triangles
+    /// Format of standard output, named by its file extension
+    #[arg(long, value_name = "EXT", value_parser = meshes::parse_format)]
+    output_format: Option<FileFormat>,
+
+    /// Of a volume, write only its boundary, a surface
     #[arg(long)]
     boundary: bool,
 
-    /// Of a volume, only where it meets the plane A x + B y + C z = D, as a mesh of triangles
+    /// Of a volume, write only its section with the plane A x + B y + C z = D, a surface
     #[arg(long, value_name = "A,B,C,D", value_parser = plane, allow_hyphen_values = true, conflicts_with = "boundary")]
     slice: Option<Plane>,
 
@@ -41,19 +47,25 @@ pub(crate) struct Arguments {
 #[derive(Debug, Args)]
 #[group(required = true, multiple = false)]
 struct Selector {
-    /// The coarsest level with at most this error (a length, or with % in percent of the diagonal)
+    /// The coarsest level with at most this error: a length, or with % in percent of the diagonal
     #[arg(long, value_name = "E")]
     error: Option<Length>,
 
-    /// The finest level with at most this many triangles; the coarsest one where none is that small
-    #[arg(long, value_name = "N", visible_alias = "tetrahedra")]
-    triangles: Option<u32>,
+    /// The finest level with at most this many triangles: a number, or with % in percent of the input's.
+    /// The coarsest level if every level has more
+    #[arg(long, value_name = "N")]
+    triangles: Option<Count>,
 
-    /// The level before a leap of the error whose reduction is nearest to this one, from 0 (the input) to 1 (nothing)
+    /// The same for a file of a volume
+    #[arg(long, value_name = "N")]
+    tetrahedra: Option<Count>,
+
+    /// Of the levels before a leap of the error, the one whose reduction is nearest to R: 0 is the input, 1
+    /// leaves nothing
     #[arg(long, value_name = "R", value_parser = reduction)]
     inflection: Option<f64>,
 
-    /// This level: 0 is the input
+    /// This level; 0 is the input
     #[arg(long, value_name = "L")]
     level: Option<u32>,
 }
@@ -61,38 +73,6 @@ struct Selector {
 fn reduction(text: &str) -> Result<f64, &'static str> {
     let value = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
     value.ok_or("expected a number from 0 to 1")
-}
-
-impl Selector {
-    /// The cut that the selector asks for.
-    fn cut<'a>(&self, file: &Path, lod: &'a Lod) -> Result<Cut<'a>, Failure> {
-        if let Some(error) = self.error {
-            let error = error.in_mesh_units(lod.bounding_diagonal());
-            let cut = lod.at_error(error);
-            if cut.error() > error {
-                let found = figures::significant(cut.error());
-                report::note(&format!("{}: the finest level has error {found} already", file.display()));
-            }
-            return Ok(cut);
-        }
-        if let Some(n_triangles) = self.triangles {
-            let cut = lod.at_count(n_triangles as usize);
-            if cut.n_simplices() > n_triangles as usize {
-                let found = figures::simplices(cut.n_simplices(), lod.simplex());
-                report::note(&format!("{}: the coarsest level still has {found}", file.display()));
-            }
-            return Ok(cut);
-        }
-        if let Some(reduction) = self.inflection {
-            return Ok(lod.at_reduction_near_inflection(reduction, INFLECTION_RATIO));
-        }
-        let level = self.level.unwrap_or(0);
-        if level < lod.n_levels() {
-            Ok(lod.at_level(level))
-        } else {
-            Err(Failure::Level { path: file.to_owned(), level, n_levels: lod.n_levels() })
-        }
-    }
 }
 
 fn plane(text: &str) -> Result<Plane, &'static str> {
@@ -104,81 +84,136 @@ fn plane(text: &str) -> Result<Plane, &'static str> {
     if normal == [0.0; 3] { Err(EXPECTED) } else { Ok(Plane { normal, offset }) }
 }
 
-/// What is written of a level.
-enum Part {
-    Surface(TriangleMesh),
-    Volume(TetrahedronMesh),
+impl Selector {
+    /// The level that was asked for.
+    fn cut<'a>(&self, file: &Source, lod: &'a Lod) -> Result<Cut<'a>, Failure> {
+        if let Some(error) = self.error {
+            return Ok(at_error(error.in_mesh_units(lod.bounding_diagonal()), file, lod));
+        }
+        if let Some(count) = self.triangles.or(self.tetrahedra) {
+            return Ok(at_count(count.of(lod.at_level(0).n_simplices()), file, lod));
+        }
+        if let Some(reduction) = self.inflection {
+            return Ok(lod.at_reduction_near_inflection(reduction, INFLECTION_RATIO));
+        }
+        let level = self.level.unwrap_or(0);
+        if level < lod.n_levels() {
+            Ok(lod.at_level(level))
+        } else {
+            Err(Failure::Level { file: file.to_string(), level, n_levels: lod.n_levels() })
+        }
+    }
 }
 
-impl Part {
-    fn of(cut: &Cut<'_>, arguments: &Arguments) -> Result<Self, QueryError> {
-        Ok(match arguments.slice {
-            Some(plane) => Self::Surface(cut.slice(&plane)?),
-            None if arguments.boundary => Self::Surface(cut.boundary()?),
-            None if cut.lod().simplex() == Simplex::Tetrahedron => Self::Volume(cut.to_volume()?),
-            None => Self::Surface(cut.to_mesh()?),
+/// The coarsest level with at most `error`; says so if even the finest has more.
+fn at_error<'a>(error: f64, file: &Source, lod: &'a Lod) -> Cut<'a> {
+    let cut = lod.at_error(error);
+    if cut.error() > error {
+        let found = figures::significant(cut.error());
+        report::note(&format!(
+            "{file}: level 0 is written: its error is {found}, as reading rounded the input"
+        ));
+    }
+    cut
+}
+
+/// The finest level with at most `n_asked` simplices; says so if even the coarsest has more.
+fn at_count<'a>(n_asked: usize, file: &Source, lod: &'a Lod) -> Cut<'a> {
+    let cut = lod.at_count(n_asked);
+    if cut.n_simplices() > n_asked {
+        let found = figures::simplices(cut.n_simplices(), lod.simplex());
+        report::note(&format!("{file}: the coarsest level is written: it has {found}"));
+    }
+    cut
+}
+
+impl Arguments {
+    /// Where the mesh goes.
+    pub(super) fn target(&self) -> &Target {
+        &self.output
+    }
+
+    /// Refuses options that mean nothing for what the file holds.
+    fn check(&self, lod: &Lod) -> Result<(), Failure> {
+        let Selector { triangles, tetrahedra, .. } = self.selector;
+        let (refused, holds): (&[_], _) = match lod.simplex() {
+            Simplex::Triangle => (
+                &[
+                    ("--tetrahedra", tetrahedra.is_some()),
+                    ("--boundary", self.boundary),
+                    ("--slice", self.slice.is_some()),
+                ],
+                "a surface, of triangles",
+            ),
+            Simplex::Tetrahedron => {
+                (&[("--triangles", triangles.is_some())], "a volume: count --tetrahedra instead")
+            }
+        };
+        match refused.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => {
+                Err(Failure::usage(format!("{option} cannot be used: {} holds {holds}", self.file)))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// What is written of a level.
+    fn mesh(&self, cut: &Cut<'_>) -> Result<Mesh, QueryError> {
+        Ok(match (cut.lod().simplex(), &self.slice) {
+            (Simplex::Triangle, _) => Mesh::Surface(cut.to_mesh()?),
+            (Simplex::Tetrahedron, Some(plane)) => Mesh::Surface(cut.slice(plane)?),
+            (Simplex::Tetrahedron, None) if self.boundary => Mesh::Surface(cut.boundary()?),
+            (Simplex::Tetrahedron, None) => Mesh::Volume(cut.to_volume()?),
         })
     }
 
-    fn write(&self, output: &Path) -> Result<FileReport, MeshError> {
-        match self {
-            Self::Surface(mesh) => nephrite_formats::write_mesh(output, mesh),
-            Self::Volume(mesh) => nephrite_formats::write_volume(output, mesh),
-        }
-    }
-
-    /// Simplices and vertices, and what the simplices are.
-    fn sizes(&self) -> (usize, usize, Simplex) {
-        match self {
-            Self::Surface(mesh) => (mesh.triangles.len(), mesh.positions.len(), Simplex::Triangle),
-            Self::Volume(mesh) => (mesh.tetrahedra.len(), mesh.positions.len(), Simplex::Tetrahedron),
-        }
+    /// What the written mesh consists of.
+    fn simplex_written(&self, lod: &Lod) -> Simplex {
+        if self.boundary || self.slice.is_some() { Simplex::Triangle } else { lod.simplex() }
     }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    let Arguments { file, output, selector, boundary, slice } = arguments;
+    let Arguments { file, output, output_format, selector, .. } = arguments;
     let start = Instant::now();
     interrupt::listen();
-    if files::is_volume(output) {
-        files::check_volume_output(output, &[file])?;
-    } else {
-        files::check_mesh_output(output, &[file])?;
-    }
+    files::check_target(output, &file.path().into_iter().collect::<Vec<_>>())?;
     let lod = files::open_lod(file)?;
-    let is_volume = lod.simplex() == Simplex::Tetrahedron && !boundary && slice.is_none();
-    if is_volume != files::is_volume(output) {
-        let kind = if is_volume { "a volume" } else { "a surface" };
-        return Err(Failure::Kind { path: output.clone(), kind });
-    }
+    arguments.check(&lod)?;
+    let format = meshes::format_to_write(output, *output_format, arguments.simplex_written(&lod))?;
     let cut = selector.cut(file, &lod)?;
-    let part = Part::of(&cut, arguments).map_err(|source| Failure::file(file, source))?;
+    let mesh = arguments.mesh(&cut).map_err(|source| Failure::file(file.to_string(), source))?;
     interrupt::check()?;
-    let notes = part.write(output)?.notes();
+    let notes = mesh.write(output, format)?.notes();
     let seconds = start.elapsed();
-    let (n_simplices, n_vertices, simplex) = part.sizes();
     Ok(Report {
-        text: format!(
-            "{}: {}, {} vertices, error {}, level {}, {}\n{}",
-            output.display(),
-            figures::simplices(n_simplices, simplex),
-            figures::count(n_vertices),
-            figures::error(cut.error(), lod.bounding_diagonal()),
-            cut.level(),
-            figures::time(seconds),
-            notes.iter().map(|note| format!("  {note}\n")).collect::<String>()
-        ),
-        json: json!({
-            (simplex.to_string()): n_simplices,
-            "vertices": n_vertices,
-            "error": cut.error(),
-            "deviations": deviations(&cut),
-            "level": cut.level(),
-            "runs": cut.n_runs(),
-            "bounding_diagonal": lod.bounding_diagonal(),
-            "seconds": seconds.as_secs_f64(),
-            "notes": notes,
-        }),
+        text: text(output, &mesh, &cut, seconds) + &figures::notes(&notes),
+        json: json(&mesh, &cut, seconds, &notes),
+    })
+}
+
+fn text(output: &Target, mesh: &Mesh, cut: &Cut<'_>, seconds: Duration) -> String {
+    format!(
+        "{output}: {}, {} vertices, error {}, level {}, {}\n",
+        figures::simplices(mesh.n_simplices(), mesh.simplex()),
+        figures::count(mesh.n_vertices()),
+        figures::error(cut.error(), cut.lod().bounding_diagonal()),
+        cut.level(),
+        figures::time(seconds)
+    )
+}
+
+fn json(mesh: &Mesh, cut: &Cut<'_>, seconds: Duration, notes: &[String]) -> Value {
+    json!({
+        (mesh.simplex().to_string()): mesh.n_simplices(),
+        "vertices": mesh.n_vertices(),
+        "error": cut.error(),
+        "deviations": deviations(cut),
+        "level": cut.level(),
+        "runs": cut.n_runs(),
+        "bounding_diagonal": cut.lod().bounding_diagonal(),
+        "notes": notes,
+        "seconds": seconds.as_secs_f64(),
     })
 }
 

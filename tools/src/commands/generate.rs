@@ -1,17 +1,18 @@
 //! `nephrite generate`: a surface made from a formula, written as a mesh.
 
-use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Subcommand, value_parser};
 use nephrite::generate::{self, Drilling};
 use nephrite::query::Simplex;
-use nephrite::{TetrahedronMesh, TriangleMesh};
+use nephrite_formats::FileFormat;
 use serde_json::json;
 
 use crate::failure::Failure;
+use crate::meshes::{self, Mesh};
 use crate::report::Report;
+use crate::streams::Target;
 use crate::{figures, files, interrupt};
 
 /// Make a surface from a formula.
@@ -24,9 +25,13 @@ pub(crate) struct Arguments {
 /// Where the surface goes.
 #[derive(Debug, clap::Args)]
 struct Output {
-    /// Mesh to write; its extension chooses the format
+    /// Mesh to write, or - for standard output; the extension chooses the format
     #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    output: Target,
+
+    /// Format of standard output, named by its file extension
+    #[arg(long, value_name = "EXT", value_parser = meshes::parse_format)]
+    output_format: Option<FileFormat>,
 }
 
 /// Squares, holes and edges of a drilled part; without them, those of the paper's part with seven holes.
@@ -53,7 +58,18 @@ struct DrillingArguments {
 }
 
 impl DrillingArguments {
-    /// What is said, in the place of what is usual.
+    /// Refuses more holes than there are squares.
+    fn check(&self, usual: &Drilling) -> Result<(), Failure> {
+        let [columns, rows] = [self.columns.unwrap_or(usual.columns), self.rows.unwrap_or(usual.rows)];
+        match self.holes.filter(|&n_holes| n_holes > columns * rows) {
+            Some(n_holes) => Err(Failure::usage(format!(
+                "--holes is {n_holes}, but {columns} x {rows} squares have room for one hole each"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// The numbers given, and the usual ones for the others.
     fn or(self, usual: Drilling) -> Drilling {
         Drilling {
             columns: self.columns.unwrap_or(usual.columns),
@@ -190,10 +206,11 @@ enum Kind {
     },
 }
 
-/// A surface or a volume.
-enum Generated {
-    Surface(TriangleMesh),
-    Volume(TetrahedronMesh),
+impl Arguments {
+    /// Where the mesh goes.
+    pub(super) fn target(&self) -> &Target {
+        &self.kind.to().output
+    }
 }
 
 impl Kind {
@@ -214,10 +231,27 @@ impl Kind {
         }
     }
 
-    fn generate(&self) -> Generated {
-        Generated::Surface(match *self {
-            Self::Box { cells, .. } => return Generated::Volume(generate::box_volume([cells; 3])),
-            Self::Ball { cells, .. } => return Generated::Volume(generate::ball_volume(cells)),
+    /// What the mesh consists of.
+    fn simplex(&self) -> Simplex {
+        match self {
+            Self::Box { .. } | Self::Ball { .. } => Simplex::Tetrahedron,
+            _ => Simplex::Triangle,
+        }
+    }
+
+    /// Refuses numbers that contradict each other.
+    fn check(&self) -> Result<(), Failure> {
+        match self {
+            Self::Plate { drilling, .. } => drilling.check(&Drilling::PLATE),
+            Self::Shell { drilling, .. } => drilling.check(&Drilling::SHELL),
+            _ => Ok(()),
+        }
+    }
+
+    fn generate(&self) -> Mesh {
+        Mesh::Surface(match *self {
+            Self::Box { cells, .. } => return Mesh::Volume(generate::box_volume([cells; 3])),
+            Self::Ball { cells, .. } => return Mesh::Volume(generate::ball_volume(cells)),
             Self::Cosine { side, .. } => generate::cosine(side),
             Self::Sphere { triangles, .. } => generate::sphere(generate::sphere_frequency(triangles)),
             Self::Torus { segments, sides, .. } => generate::torus(segments, sides),
@@ -237,37 +271,26 @@ impl Kind {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    let Output { output } = arguments.kind.to();
+    let Output { output, output_format } = arguments.kind.to();
     let start = Instant::now();
     interrupt::listen();
-    let is_volume = matches!(arguments.kind, Kind::Box { .. } | Kind::Ball { .. });
-    if is_volume {
-        files::check_volume_output(output, &[])?;
-    } else {
-        files::check_mesh_output(output, &[])?;
-    }
-    let generated = arguments.kind.generate();
+    arguments.kind.check()?;
+    let format = meshes::format_to_write(output, *output_format, arguments.kind.simplex())?;
+    files::check_target(output, &[])?;
+    let mesh = arguments.kind.generate();
     interrupt::check()?;
-    let (n_simplices, n_vertices, simplex) = match &generated {
-        Generated::Surface(mesh) => {
-            nephrite_formats::write_mesh(output, mesh)?;
-            (mesh.triangles.len(), mesh.positions.len(), Simplex::Triangle)
-        }
-        Generated::Volume(mesh) => {
-            nephrite_formats::write_volume(output, mesh)?;
-            (mesh.tetrahedra.len(), mesh.positions.len(), Simplex::Tetrahedron)
-        }
-    };
+    let notes = mesh.write(output, format)?.notes();
     Ok(Report {
         text: format!(
-            "{}: {}, {} vertices\n",
-            output.display(),
-            figures::simplices(n_simplices, simplex),
-            figures::count(n_vertices)
+            "{output}: {}, {} vertices\n{}",
+            figures::simplices(mesh.n_simplices(), mesh.simplex()),
+            figures::count(mesh.n_vertices()),
+            figures::notes(&notes)
         ),
         json: json!({
-            (simplex.to_string()): n_simplices,
-            "vertices": n_vertices,
+            (mesh.simplex().to_string()): mesh.n_simplices(),
+            "vertices": mesh.n_vertices(),
+            "notes": notes,
             "seconds": start.elapsed().as_secs_f64(),
         }),
     })

@@ -1,7 +1,5 @@
 //! `nephrite info`: what is inside a file, and how its triangles fall as the error rises.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use nephrite::Lod;
 use nephrite::query::INFLECTION_RATIO;
@@ -10,13 +8,14 @@ use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::report::Report;
+use crate::streams::Source;
 use crate::{figures, files};
 
 /// Say what is inside a file.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// File that `build` wrote
-    file: PathBuf,
+    /// File that `build` wrote, or - for standard input
+    file: Source,
 }
 
 /// Rows of the curve that the text shows; JSON lists every level.
@@ -24,7 +23,7 @@ const SHOWN_LEVELS: usize = 24;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let lod = files::open_lod(&arguments.file)?;
-    let metadata = lod.metadata().map_err(|source| Failure::file(&arguments.file, source))?;
+    let metadata = lod.metadata().map_err(|source| Failure::file(arguments.file.to_string(), source))?;
     Ok(Report { text: text(arguments, &lod, &metadata), json: json(&lod, &metadata) })
 }
 
@@ -102,7 +101,7 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
             ),
         ),
     ]);
-    format!("{}\n{list}\n{}", arguments.file.display(), curve(lod))
+    format!("{}\n{list}\n{}", arguments.file, curve(lod))
 }
 
 /// Levels before which the error leaps.

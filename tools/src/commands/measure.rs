@@ -1,55 +1,65 @@
-//! `nephrite measure`: how far two surfaces are apart, sampled and proven.
+//! `nephrite measure`: the distance between two surfaces, sampled and proven.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use nephrite::measure::{self, Distance, FieldDistance, Histogram, MeasureOptions, OneSided};
-use nephrite::{Attribute, ScalarType, TriangleMesh};
+use nephrite::mesh::repair_tetrahedra;
+use nephrite::query::Simplex;
+use nephrite::{Attribute, ScalarType, TetrahedronMesh, TriangleMesh};
+use nephrite_formats::{FileFormat, MeshFormat};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
+use crate::meshes::{self, Mesh, Read};
 use crate::plot::{self, Panel};
 use crate::report::{self, Report};
+use crate::streams::{Source, Target};
 use crate::threads::Threads;
 use crate::{figures, files, ramp};
 
 /// Bars of the histogram.
 const N_BINS: usize = 128;
 
-/// Measure the two-sided distance between two surfaces, or between those around two volumes, with a proven bracket.
+/// Measure the two-sided distance between two surfaces, with a proven bracket.
 ///
-/// Mean and rms count what Metro counts: vertices, samples on edges and samples in triangles, each once. The bracket is
-/// a proof: the Hausdorff distance lies between its ends.
+/// Of a volume the boundary is measured. Two volumes are also compared by their contents and fields.
+/// Mean and rms count what Metro counts: vertices, samples on edges and samples in triangles, each once.
+/// The bracket is proven: the Hausdorff distance lies between its ends.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Mesh to compare with
-    reference: PathBuf,
+    /// Mesh to compare with, or - for standard input
+    reference: Source,
 
-    /// Mesh to judge
-    mesh: PathBuf,
+    /// Mesh to judge, or - for standard input
+    mesh: Source,
+
+    /// Format of standard input, named by its file extension; without it, the contents tell
+    #[arg(long, value_name = "EXT", value_parser = meshes::parse_format)]
+    input_format: Option<FileFormat>,
 
     /// Samples on the edges, and as many in the triangles, of each mesh
     #[arg(long, value_name = "N", default_value_t = MeasureOptions::default().n_samples, value_parser = n_samples)]
     samples: usize,
 
-    /// Width of the proven bracket to reach, as a part of the distance or, with %, in percent of it
+    /// Width of the proven bracket to reach, as a fraction of the distance or, with %, in percent of it
     #[arg(long, value_name = "T", default_value = "1%", value_parser = tolerance)]
     tolerance: f64,
 
-    /// Pieces of each mesh that the proof may look at before it stops with the bracket it has
+    /// The proof stops with the bracket it has when it has examined this many pieces of each mesh
     #[arg(long, value_name = "N", default_value_t = MeasureOptions::default().max_pieces)]
     max_pieces: usize,
 
-    /// Write MESH with the distance of every vertex from REFERENCE, and a colour for it: dark blue for none, yellow for
-    /// the largest distance of MESH
+    /// Write MESH with two attributes of every vertex: its distance from REFERENCE, and a colour from dark
+    /// blue for 0 to yellow for the largest distance
     #[arg(long, visible_alias = "color", value_name = "OUT.ply")]
-    colour: Option<PathBuf>,
+    colour: Option<Target>,
 
-    /// Write a histogram of the distances, by area, in both directions
+    /// Write a histogram of the distances, weighted by area, in both directions
     #[arg(long, value_name = "OUT.svg")]
-    plot: Option<PathBuf>,
+    plot: Option<Target>,
 
     #[command(flatten)]
     threads: Threads,
@@ -67,87 +77,150 @@ fn tolerance(text: &str) -> Result<f64, &'static str> {
         .ok_or("expected a number above 0, with % for percent")
 }
 
+impl Arguments {
+    /// Where a mesh or picture goes: standard output if one of them does.
+    pub(super) fn target(&self) -> Option<&Target> {
+        self.targets().find(|target| **target == Target::Stdout)
+    }
+
+    fn targets(&self) -> impl Iterator<Item = &Target> {
+        self.colour.iter().chain(&self.plot)
+    }
+
+    /// Refuses arguments that contradict each other, and outputs that cannot be written.
+    fn check(&self) -> Result<(), Failure> {
+        let sources = [&self.reference, &self.mesh];
+        let n_stdin = sources.iter().filter(|source| source.path().is_none()).count();
+        match (n_stdin, self.input_format) {
+            (2, _) => {
+                return Err(Failure::usage("standard input can be read once, - is given for both meshes"));
+            }
+            (0, Some(_)) => {
+                return Err(Failure::usage(
+                    "--input-format is for standard input, and both meshes are files",
+                ));
+            }
+            _ => {}
+        }
+        if self.targets().filter(|target| **target == Target::Stdout).count() > 1 {
+            return Err(Failure::usage("standard output can be written once, - is given for both outputs"));
+        }
+        let inputs: Vec<&Path> = sources.iter().filter_map(|source| source.path()).collect();
+        if let Some(colour) = &self.colour {
+            meshes::format_to_write(colour, self.colour_format(), Simplex::Triangle)?;
+        }
+        if let Some(plot) = &self.plot {
+            files::check_is_svg(plot)?;
+        }
+        self.targets().try_for_each(|target| files::check_target(target, &inputs))
+    }
+
+    /// Format of the coloured mesh if its name does not tell: PLY on standard output.
+    fn colour_format(&self) -> Option<FileFormat> {
+        let is_stdout = self.colour == Some(Target::Stdout);
+        is_stdout.then_some(FileFormat::Surface(MeshFormat::Ply))
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let start = Instant::now();
-    let inputs = [arguments.reference.as_path(), arguments.mesh.as_path()];
-    if let Some(colour) = &arguments.colour {
-        files::check_mesh_output(colour, &inputs)?;
-    }
-    if let Some(plot) = &arguments.plot {
-        files::check_output(plot, &inputs)?;
-    }
+    arguments.check()?;
     arguments.threads.run(|| {
-        let inputs_read = Inputs::read(inputs)?;
-        let Inputs { surfaces: [reference, mesh], fields, volumes } = inputs_read;
-        let failed =
-            |source| Failure::file(format!("{} and {}", inputs[0].display(), inputs[1].display()), source);
+        let inputs = Inputs::read(arguments)?;
+        let [reference, mesh] = &inputs.surfaces;
         let options = MeasureOptions {
             n_samples: arguments.samples,
             tolerance: arguments.tolerance,
             max_pieces: arguments.max_pieces,
         };
-        let distance = measure::measure(&reference, &mesh, &options).map_err(failed)?;
+        let distance =
+            measure::measure(reference, mesh, &options).map_err(|source| failed(arguments, source))?;
         let seconds = start.elapsed();
         if !distance.is_within_tolerance {
             report::note("the bracket is wider than asked for: --max-pieces stopped the proof");
         }
-        if let Some(path) = &arguments.colour {
-            let distances = measure::vertex_distances(&mesh, &reference).map_err(failed)?;
-            nephrite_formats::write_mesh(path, &coloured(mesh.clone(), &distances, distance.backward.max))?;
-        }
-        if let Some(path) = &arguments.plot {
-            let picture = picture(arguments, [&reference, &mesh], &distance).map_err(failed)?;
-            write(path, &picture).map_err(|source| Failure::file(path, source))?;
-        }
-        let n_triangles = [&reference, &mesh].map(|mesh| mesh.triangles.len());
-        let mut report = Report {
-            text: text(inputs, n_triangles, &distance, seconds) + &fields_text(&fields),
-            json: json(&distance, n_triangles, seconds),
-        };
-        if let Some([volume_reference, volume]) = volumes {
-            report.json["volume_reference"] = json!(volume_reference);
-            report.json["volume"] = json!(volume);
-            report.json["fields"] = json!(fields);
-        }
-        Ok(report)
+        write_colours(arguments, &inputs, &distance)?;
+        write_plot(arguments, &inputs, &distance)?;
+        Ok(Report {
+            text: text(arguments, &inputs, &distance, seconds) + &fields_text(&inputs.fields),
+            json: json(&inputs, &distance, seconds),
+        })
     })?
 }
 
-/// Two surfaces, or what is measured of two volumes: the surfaces around them and their fields.
+fn failed(arguments: &Arguments, source: measure::MeasureError) -> Failure {
+    Failure::file(format!("{} and {}", arguments.reference, arguments.mesh), source)
+}
+
+fn write_colours(arguments: &Arguments, inputs: &Inputs, distance: &Distance) -> Result<(), Failure> {
+    let Some(target) = &arguments.colour else { return Ok(()) };
+    let [reference, mesh] = &inputs.surfaces;
+    let distances = measure::vertex_distances(mesh, reference).map_err(|source| failed(arguments, source))?;
+    let coloured = Mesh::Surface(coloured(mesh.clone(), &distances, distance.backward.max));
+    let format = meshes::format_to_write(target, arguments.colour_format(), Simplex::Triangle)?;
+    files::tell(&target.to_string(), &coloured.write(target, format)?.notes());
+    Ok(())
+}
+
+fn write_plot(arguments: &Arguments, inputs: &Inputs, distance: &Distance) -> Result<(), Failure> {
+    let Some(target) = &arguments.plot else { return Ok(()) };
+    let [reference, mesh] = &inputs.surfaces;
+    let picture =
+        picture(arguments, [reference, mesh], distance).map_err(|source| failed(arguments, source))?;
+    let written = target.publish(|out| out.write_all(picture.as_bytes()));
+    written.map_err(|source: io::Error| Failure::file(target.to_string(), source))
+}
+
+/// Two surfaces to measure. Of a volume, its boundary.
 struct Inputs {
     surfaces: [TriangleMesh; 2],
+    /// What each surface was read from.
+    simplices: [Simplex; 2],
+    /// Fields that both volumes have.
     fields: Vec<FieldDistance>,
-    /// The contents of volumes, in cubic mesh units.
+    /// Contents of two volumes, in cubic mesh units.
     volumes: Option<[f64; 2]>,
 }
 
 impl Inputs {
-    fn read([reference, mesh]: [&Path; 2]) -> Result<Self, Failure> {
-        if !files::is_volume(reference) || !files::is_volume(mesh) {
-            let read = |path: &Path| {
-                let (mesh, report) = files::read_mesh(path)?;
-                files::tell(path, &report);
-                Ok::<_, Failure>(mesh)
-            };
-            let (reference, mesh) = rayon::join(|| read(reference), || read(mesh));
-            let surfaces = [reference?, mesh?];
-            return Ok(Self { surfaces, fields: Vec::new(), volumes: None });
-        }
-        let read = |path: &Path| {
-            let (mesh, report) = files::read_volume(path, &[])?;
-            files::tell(path, &report);
-            Ok::<_, Failure>(mesh)
+    fn read(arguments: &Arguments) -> Result<Self, Failure> {
+        let Arguments { reference, mesh, .. } = arguments;
+        let (reference, mesh) = rayon::join(|| read(arguments, reference), || read(arguments, mesh));
+        let (reference, mesh) = (reference?, mesh?);
+        let simplices = [reference.simplex(), mesh.simplex()];
+        let (fields, volumes) = match (&reference, &mesh) {
+            (Mesh::Volume(one), Mesh::Volume(other)) => {
+                (measure::measure_fields(one, other), Some([one.volume(), other.volume()]))
+            }
+            _ => (Vec::new(), None),
         };
-        let volumes = [read(reference)?, read(mesh)?];
-        Ok(Self {
-            surfaces: [nephrite::volume::boundary(&volumes[0]), nephrite::volume::boundary(&volumes[1])],
-            fields: measure::measure_fields(&volumes[0], &volumes[1]),
-            volumes: Some(volumes.map(|volume| volume.volume())),
-        })
+        Ok(Self { surfaces: [reference, mesh].map(surface), simplices, fields, volumes })
     }
 }
 
-/// A table of the fields of volumes, nothing where there are none.
+/// Reads a mesh as `build` does: volumes after repair. Prints the notes of its reader.
+fn read(arguments: &Arguments, source: &Source) -> Result<Mesh, Failure> {
+    let format = arguments.input_format.filter(|_| source.path().is_none());
+    let Read { mesh, report } = meshes::read(source, format)?;
+    files::tell(&source.to_string(), &report.notes());
+    Ok(match mesh {
+        Mesh::Volume(volume) => Mesh::Volume(repaired(&volume)),
+        surface => surface,
+    })
+}
+
+fn repaired(volume: &TetrahedronMesh) -> TetrahedronMesh {
+    repair_tetrahedra(volume).0
+}
+
+fn surface(mesh: Mesh) -> TriangleMesh {
+    match mesh {
+        Mesh::Surface(mesh) => mesh,
+        Mesh::Volume(volume) => nephrite::volume::boundary(&volume),
+    }
+}
+
+/// A table of the fields of volumes; empty if there are none.
 fn fields_text(fields: &[FieldDistance]) -> String {
     if fields.is_empty() {
         return String::new();
@@ -171,12 +244,8 @@ fn fields_text(fields: &[FieldDistance]) -> String {
     format!("Fields, sampled at vertices:\n{}", figures::table(headings, &rows))
 }
 
-fn write(path: &Path, text: &str) -> io::Result<()> {
-    nephrite_formats::publish(path, |out| out.write_all(text.as_bytes()))
-}
-
-/// The mesh with the attributes `distance` and `color` in place of any it had of these names; `range` has the ramp's
-/// last colour.
+/// The mesh with the attributes `distance` and `color`, which replace any of these names. A distance of
+/// `range` has the last colour of the ramp.
 fn coloured(mut mesh: TriangleMesh, distances: &[f64], range: f64) -> TriangleMesh {
     mesh.attributes.retain(|attribute| attribute.name != "distance" && attribute.name != "color");
     #[expect(clippy::cast_possible_truncation, reason = "the file keeps f32, as it does for positions")]
@@ -209,12 +278,16 @@ fn picture(
         panel("from the reference to the mesh", &forward, &distance.forward),
         panel("from the mesh to the reference", &backward, &distance.backward),
     ];
-    let name = |path: &Path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let name = |source: &Source| {
+        let name = source.path().and_then(Path::file_name);
+        name.map_or(source.to_string(), |name| name.to_string_lossy().into_owned())
+    };
     let title = format!("Distance between {} and {}", name(&arguments.reference), name(&arguments.mesh));
     Ok(plot::svg(&title, &panels, distance.bounding_diagonal))
 }
 
-fn json(distance: &Distance, n_triangles: [usize; 2], seconds: Duration) -> Value {
+fn json(inputs: &Inputs, distance: &Distance, seconds: Duration) -> Value {
+    let n_triangles = inputs.surfaces.each_ref().map(|mesh| mesh.triangles.len());
     let mut json = json!(distance);
     let Distance { forward, backward, .. } = distance;
     for (key, value) in [
@@ -230,10 +303,15 @@ fn json(distance: &Distance, n_triangles: [usize; 2], seconds: Duration) -> Valu
     ] {
         json[key] = value;
     }
+    if let Some([volume_reference, volume]) = inputs.volumes {
+        json["volume_reference"] = json!(volume_reference);
+        json["volume"] = json!(volume);
+        json["fields"] = json!(inputs.fields);
+    }
     json
 }
 
-fn text(paths: [&Path; 2], n_triangles: [usize; 2], distance: &Distance, seconds: Duration) -> String {
+fn text(arguments: &Arguments, inputs: &Inputs, distance: &Distance, seconds: Duration) -> String {
     let row = |name: &str, max, mean, rms, [lower, upper]: [f64; 2]| {
         let percent = figures::percent(max, distance.bounding_diagonal);
         let lengths = [max, mean, rms, lower, upper].map(figures::significant);
@@ -248,13 +326,18 @@ fn text(paths: [&Path; 2], n_triangles: [usize; 2], distance: &Distance, seconds
         one_sided("mesh to reference", &distance.backward),
         row("both", distance.max, distance.mean, distance.rms, [distance.lower_bound, distance.upper_bound]),
     ];
-    let surface = |index: usize| {
-        format!("{}, {} triangles", paths[index].display(), figures::count(n_triangles[index]))
+    let surface = |source: &Source, index: usize| {
+        let boundary = match inputs.simplices[index] {
+            Simplex::Triangle => "",
+            Simplex::Tetrahedron => "the boundary, ",
+        };
+        let n_triangles = figures::count(inputs.surfaces[index].triangles.len());
+        format!("{source}, {boundary}{n_triangles} triangles")
     };
     let n_samples = distance.forward.n_samples + distance.backward.n_samples;
     let list = figures::list(&[
-        ("reference", surface(0)),
-        ("mesh", surface(1)),
+        ("reference", surface(&arguments.reference, 0)),
+        ("mesh", surface(&arguments.mesh, 1)),
         ("diagonal", figures::significant(distance.bounding_diagonal)),
         ("samples", figures::count(n_samples)),
         ("time", figures::time(seconds)),

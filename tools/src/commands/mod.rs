@@ -19,7 +19,8 @@ mod view;
 use clap::Subcommand;
 
 use crate::failure::Failure;
-use crate::report::{Form, Report};
+use crate::report::{Form, Report, Stream};
+use crate::streams::Target;
 
 /// What the program can do.
 #[derive(Debug, Subcommand)]
@@ -39,11 +40,23 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// Runs the command. What it has to say at the end it returns; `form` is for what a server must say at its start.
+    /// Where to print the result: not among the bytes of a mesh or file that goes to standard output.
+    pub(crate) fn report_stream(&self) -> Stream {
+        let target = match self {
+            Self::Generate(arguments) => Some(arguments.target()),
+            Self::Extract(arguments) => Some(arguments.target()),
+            Self::Measure(arguments) => arguments.target(),
+            Self::Plot(arguments) => Some(arguments.target()),
+            _ => None,
+        };
+        if target == Some(&Target::Stdout) { Stream::Stderr } else { Stream::Stdout }
+    }
+
+    /// Runs the command and returns its result. A server prints its result when it starts, in `form`.
     ///
     /// # Errors
     ///
-    /// Whatever stops it; no output file is left half-written.
+    /// Whatever stops it. No output file is left half-written.
     pub(crate) fn run(&self, form: Form) -> Result<Report, Failure> {
         match self {
             Self::Demo(arguments) => demo::run(arguments),

@@ -1,7 +1,6 @@
 //! `nephrite verify`: every checksum and every invariant of a file.
 
 use std::num::NonZeroU32;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
@@ -11,14 +10,15 @@ use serde_json::json;
 
 use crate::failure::Failure;
 use crate::report::Report;
+use crate::streams::Source;
 use crate::threads::Threads;
 use crate::{figures, files, progress};
 
 /// Check every checksum and every invariant of a file, and with `--bound` prove its errors anew.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// File that `build` wrote
-    file: PathBuf,
+    /// File that `build` wrote, or - for standard input
+    file: Source,
 
     /// Prove from the file alone that every level is as near to the finest one as it says, both ways
     #[arg(long)]
@@ -35,10 +35,18 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let start = Instant::now();
     let lod = files::open_lod(&arguments.file)?;
-    arguments.threads.run(|| lod.verify())?.map_err(|source| Failure::file(&arguments.file, source))?;
+    arguments
+        .threads
+        .run(|| lod.verify())?
+        .map_err(|source| Failure::file(arguments.file.to_string(), source))?;
     let n_proven = if arguments.bound {
         let prove = || prove_errors(&lod, arguments.bound_levels);
-        Some(arguments.threads.run(prove)?.map_err(|source| Failure::file(&arguments.file, source))?)
+        Some(
+            arguments
+                .threads
+                .run(prove)?
+                .map_err(|source| Failure::file(arguments.file.to_string(), source))?,
+        )
     } else {
         None
     };
@@ -49,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     Ok(Report {
         text: format!(
             "{}: in order, {} in {} levels{proven}, {}\n",
-            arguments.file.display(),
+            arguments.file,
             figures::simplices(lod.n_lifetimes(), simplex),
             figures::count(lod.n_levels()),
             figures::time(seconds)

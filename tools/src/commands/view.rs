@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::page::PAGE;
-use crate::report::{self, Form, Report};
+use crate::report::{self, Form, Report, Stream};
 use crate::serve::{Body, Server, Site};
 use crate::{figures, files, interrupt};
 
@@ -42,6 +42,12 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, Failure> {
+    for file in &arguments.files {
+        if file == Path::new("-") {
+            return Err(Failure::usage("view cannot show standard input: the page reads a file in parts"));
+        }
+        files::check_head(file)?;
+    }
     let page = PAGE.map_err(|why| Failure::file("the page", io::Error::other(why)))?;
     interrupt::listen();
     let site = Site::new(page, &arguments.files, arguments.export.is_none())?;
@@ -60,7 +66,8 @@ fn serve(arguments: &Arguments, site: Site, form: Form) -> Result<Report, Failur
         text: format!("{url}\nCtrl-C ends it.\n"),
         json: json!({ "url": url, "files": arguments.files.len() }),
     };
-    start.print(form).map_err(|source| Failure::system("standard output", source))?;
+    let printed = start.print(form, Stream::Stdout);
+    printed.map_err(|source| Failure::system(Stream::Stdout.name(), source))?;
     if !arguments.no_open && open::that_detached(&url).is_err() {
         report::note("no browser to open was found");
     }

@@ -4,7 +4,7 @@ mod memory;
 
 use std::hint::black_box;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 use nephrite::Lod;
@@ -14,14 +14,15 @@ use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::report::Report;
+use crate::streams::Source;
 use crate::{figures, files, stopwatch};
 use memory::{CacheFlush, forget_file};
 
 /// Measure how fast levels come out of a file on this machine.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// File that `build` wrote
-    file: PathBuf,
+    /// File that `build` wrote, or - for standard input
+    file: Source,
 }
 
 /// Cuts measured at most, spread over the levels evenly in the logarithm of the triangle count.
@@ -93,12 +94,13 @@ impl Measured {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let lod = files::open_lod(&arguments.file)?;
-    let opening =
-        Opening::measure(&arguments.file).map_err(|source| Failure::file(&arguments.file, source))?;
+    let failed = |source| Failure::file(arguments.file.to_string(), source);
+    let opening = arguments.file.path().map(Opening::measure).transpose().map_err(failed)?;
     let mut flush = CacheFlush::new();
     let mut cuts = Vec::new();
     for level in spread_levels(&lod) {
-        cuts.push(measure(&lod, level, &mut flush).map_err(|source| Failure::file(&arguments.file, source))?);
+        let measured = measure(&lod, level, &mut flush);
+        cuts.push(measured.map_err(|source| Failure::file(arguments.file.to_string(), source))?);
     }
     let rows: Vec<_> = cuts.iter().map(Measured::row).collect();
     let simplices = lod.simplex().to_string();
@@ -122,13 +124,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
          in cache order.\n"
     );
     Ok(Report {
-        text: figures::table(headings, &rows) + &legend + &opening.text(),
+        text: figures::table(headings, &rows)
+            + &legend
+            + &opening.as_ref().map_or(String::new(), Opening::text),
         json: json!({
             "cuts": cuts.iter().map(|cut| cut.json(lod.simplex())).collect::<Vec<_>>(),
             "cache_len": CACHE_LEN,
             "threads": n_threads,
-            "open_seconds": opening.warm_seconds,
-            "cold_open_seconds": opening.cold_seconds,
+            "open_seconds": opening.as_ref().map(|opening| opening.warm_seconds),
+            "cold_open_seconds": opening.and_then(|opening| opening.cold_seconds),
         }),
     })
 }
