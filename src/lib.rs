@@ -6,6 +6,7 @@
 pub mod bound;
 mod build;
 pub mod decimate;
+mod flat;
 pub mod generate;
 pub mod geometry;
 pub mod history;

@@ -4,12 +4,10 @@
 //! nearest of the new triangles. The largest distance is the estimate, and a true one-sided distance as far as the
 //! vertices go; what lies between them, and the other direction, it cannot see.
 
+use crate::flat::NO_INDEX;
 use crate::geometry::distance::point_triangle_distance_sq;
 use crate::geometry::vector::Vector;
 use crate::mesh::{Filling, Hole, Renumbering};
-
-/// End of a list.
-const NONE: u32 = u32::MAX;
 
 /// For every slot the list of removed vertices that belong to its triangle, linked through the vertices.
 #[derive(Clone, Debug)]
@@ -21,7 +19,7 @@ pub struct RemovedVertices {
 impl RemovedVertices {
     /// Empty lists for `n_slots` slots over `n_vertices` vertices.
     pub fn new(n_slots: usize, n_vertices: usize) -> Self {
-        Self { first: vec![NONE; n_slots], next: vec![NONE; n_vertices] }
+        Self { first: vec![NO_INDEX; n_slots], next: vec![NO_INDEX; n_vertices] }
     }
 
     /// Gives every slot its new number.
@@ -31,7 +29,7 @@ impl RemovedVertices {
 
     /// Vertices that belong to `slot`.
     pub fn of(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
-        let some = |v: u32| (v != NONE).then_some(v);
+        let some = |v: u32| (v != NO_INDEX).then_some(v);
         std::iter::successors(some(self.first[slot as usize]), move |&v| some(self.next[v as usize]))
     }
 
@@ -43,7 +41,7 @@ impl RemovedVertices {
     /// Empties the lists of the star of `hole`.
     pub fn clear(&mut self, hole: &Hole) {
         for &slot in &hole.slots {
-            self.first[slot as usize] = NONE;
+            self.first[slot as usize] = NO_INDEX;
         }
     }
 

@@ -1,5 +1,6 @@
 //! Vectors and exact distances between points, segments and triangles, in `f64`.
 
+pub mod barycentric;
 pub mod bounds;
 pub mod distance;
 pub mod height_triangle;

@@ -4,7 +4,7 @@
 //! equal cells fits them. Here tetrahedra are sorted into a tree of boxes, which are halved at the
 //! median of the centres along the longest side.
 
-use crate::decimate::fusion::barycentric;
+use crate::geometry::barycentric::barycentric;
 use crate::geometry::vector::{Vector, add, max, min, scale, sub};
 use nephrite_formats::TetrahedronMesh;
 

@@ -13,6 +13,7 @@ use super::bvh;
 use super::error::{MeasureError, Side};
 use super::search::Tree;
 use crate::TriangleMesh;
+use crate::flat::NO_INDEX;
 use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{self, Vector};
@@ -145,15 +146,14 @@ fn check(mesh: &TriangleMesh, side: Side) -> Result<(), MeasureError> {
 /// Numbers vertices in the order of their first use. Returns the old index of each new vertex, and
 /// the renumbered corners.
 fn number_by_use(corners: impl Iterator<Item = [u32; 3]>, n_vertices: usize) -> (Vec<u32>, Vec<[u32; 3]>) {
-    const UNUSED: u32 = u32::MAX;
-    let mut new_ids = vec![UNUSED; n_vertices];
+    let mut new_ids = vec![NO_INDEX; n_vertices];
     let mut old_ids = Vec::new();
     let mut next = 0;
     let renumbered = corners
         .map(|corners| {
             corners.map(|old| {
                 let id = &mut new_ids[old as usize];
-                if *id == UNUSED {
+                if *id == NO_INDEX {
                     *id = next;
                     next += 1;
                     old_ids.push(old);

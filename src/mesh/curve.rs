@@ -1,5 +1,6 @@
 //! Numbering along a curve: what is near in space comes to be near in memory.
 
+use super::used::pick_values;
 use super::{Numbering, Repaired};
 
 /// Renumbers vertices along a Morton curve, and triangles by their least vertex. The mesh is the same: a decimator that walks
@@ -13,9 +14,7 @@ pub fn along_a_curve(Repaired { mut mesh, points, looks, dropped, report }: Repa
     }
     mesh.positions = numbering.arrange(&mesh.positions);
     for attribute in &mut mesh.attributes {
-        let stride = attribute.stride_bytes();
-        let value = |&vertex: &u32| &attribute.bytes[vertex as usize * stride..][..stride];
-        attribute.bytes = numbering.vertices().iter().flat_map(value).copied().collect();
+        *attribute = pick_values(attribute, numbering.vertices());
     }
     let renumber = |of: Vec<u32>| {
         let mut of = numbering.arrange(&of);

@@ -16,6 +16,7 @@ mod stars;
 mod surface;
 mod tetra_repair;
 mod tetrahedra;
+mod used;
 
 pub use curve::along_a_curve;
 pub use filling::Filling;
@@ -29,3 +30,4 @@ pub use stars::{Stars, facing_edge};
 pub use surface::Surface;
 pub use tetra_repair::{TetrahedronRepairReport, repair_tetrahedra};
 pub use tetrahedra::{FACES, Tetrahedra, boundary_triangles};
+pub(crate) use used::UsedVertices;

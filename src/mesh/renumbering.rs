@@ -3,18 +3,17 @@
 //! A decimation leaves ever fewer triangles in the slots of the input. Every array that runs parallel to the slots would stay as long as
 //! it was, and the triangles that are left would lie ever farther apart in memory.
 
+use crate::flat::NO_INDEX;
+
 /// New numbers for the slots in use, in the order they had.
 ///
 /// Memory: 4 bytes per slot.
 #[derive(Clone, Debug)]
 pub struct Renumbering {
-    /// New number of each slot; [`GONE`] for the empty ones.
+    /// New number of each slot; [`NO_INDEX`] for the empty ones.
     places: Vec<u32>,
     n_used: usize,
 }
-
-/// Number of a slot that is no more.
-const GONE: u32 = u32::MAX;
 
 impl Renumbering {
     /// Numbers the slots of which `are_used` tells that they are, at most `u32::MAX` of them. O(slots).
@@ -23,7 +22,7 @@ impl Renumbering {
         let mut place = |is_used| {
             let place = next;
             next += u32::from(is_used);
-            if is_used { place } else { GONE }
+            if is_used { place } else { NO_INDEX }
         };
         let places = are_used.map(&mut place).collect();
         Self { places, n_used: next as usize }
@@ -32,13 +31,13 @@ impl Renumbering {
     /// New number of a slot in use.
     #[inline]
     pub fn place(&self, slot: u32) -> u32 {
-        debug_assert_ne!(self.places[slot as usize], GONE, "nothing names an empty slot");
+        debug_assert_ne!(self.places[slot as usize], NO_INDEX, "nothing names an empty slot");
         self.places[slot as usize]
     }
 
     /// Keeps what belongs to slots in use, and gives back the memory of the rest.
     pub fn close_up<T: Copy>(&self, of_slots: &mut Vec<T>) {
-        for (slot, &place) in self.places.iter().enumerate().filter(|&(_, &place)| place != GONE) {
+        for (slot, &place) in self.places.iter().enumerate().filter(|&(_, &place)| place != NO_INDEX) {
             of_slots[place as usize] = of_slots[slot];
         }
         of_slots.truncate(self.n_used);

@@ -13,6 +13,7 @@
 //! 5. A triangle of zero area with three distinct points is kept: its neighbours are joined through it.
 //! 6. Vertices that no triangle uses are dropped.
 
+use crate::flat::{NO_INDEX, canonical};
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{cross, length_sq, sub, widen};
 use nephrite_formats::{Attribute, TriangleMesh};
@@ -71,7 +72,7 @@ pub fn repair(mut mesh: TriangleMesh) -> Repaired {
     let dropped = outside(&mesh, &points, degenerate);
 
     let renumbered = renumber_referenced(mesh.positions.len(), &mesh.triangles);
-    let n_used = renumbered.iter().filter(|&&v| v != UNUSED).count();
+    let n_used = renumbered.iter().filter(|&&v| v != NO_INDEX).count();
     report.vertices_unreferenced = mesh.positions.len() - n_used - report.vertices_welded;
     for v in mesh.triangles.as_flattened_mut() {
         *v = renumbered[*v as usize];
@@ -84,8 +85,6 @@ pub fn repair(mut mesh: TriangleMesh) -> Repaired {
     keep_used(&mut mesh, &renumbered, n_used);
     Repaired { mesh, points, looks, dropped, report }
 }
-
-const UNUSED: u32 = u32::MAX;
 
 /// For each vertex the first one that is the same in some sense.
 struct Weld {
@@ -223,16 +222,7 @@ fn outside(mesh: &TriangleMesh, points: &[u32], mut degenerate: Vec<[u32; 3]>) -
 
 /// Drops every triangle whose points, in orientation, an earlier one has; returns how many.
 fn drop_duplicates(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> usize {
-    let key = |t: u32| {
-        let [a, b, c] = triangles[t as usize].map(|v| points[v as usize]);
-        if a < b && a < c {
-            [a, b, c]
-        } else if b < c {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        }
-    };
+    let key = |t: u32| canonical(triangles[t as usize].map(|v| points[v as usize]));
     let mut keep = vec![true; triangles.len()];
     for pair in order_by(triangles.len(), key).windows(2) {
         if key(pair[0]) == key(pair[1]) {
@@ -250,24 +240,24 @@ fn has_zero_area(mesh: &TriangleMesh, triangle: &[u32; 3]) -> bool {
     length_sq(cross(sub(b, a), sub(c, a))) == 0.0
 }
 
-/// New index of each vertex that a triangle uses, in the old order; [`UNUSED`] for the others.
+/// New index of each vertex that a triangle uses, in the old order; [`NO_INDEX`] for the others.
 fn renumber_referenced(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
-    let mut renumbered = vec![UNUSED; n_vertices];
+    let mut renumbered = vec![NO_INDEX; n_vertices];
     for &v in triangles.as_flattened() {
         renumbered[v as usize] = 0;
     }
-    let used = renumbered.iter_mut().filter(|index| **index != UNUSED);
+    let used = renumbered.iter_mut().filter(|index| **index != NO_INDEX);
     used.zip(0..).for_each(|(index, next)| *index = next);
     renumbered
 }
 
 /// For each kept vertex, in the new numbering, the first kept vertex with the same entry in `firsts`.
 fn first_used(firsts: &[u32], renumbered: &[u32], n_used: usize) -> Vec<u32> {
-    let mut first_kept = vec![UNUSED; firsts.len()];
+    let mut first_kept = vec![NO_INDEX; firsts.len()];
     let mut kept = Vec::with_capacity(n_used);
-    for (&first, &index) in firsts.iter().zip(renumbered).filter(|&(_, &index)| index != UNUSED) {
+    for (&first, &index) in firsts.iter().zip(renumbered).filter(|&(_, &index)| index != NO_INDEX) {
         let first = &mut first_kept[first as usize];
-        if *first == UNUSED {
+        if *first == NO_INDEX {
             *first = index;
         }
         kept.push(*first);
@@ -288,14 +278,14 @@ fn count_shared(points: &[u32]) -> usize {
 fn keep_used(mesh: &mut TriangleMesh, renumbered: &[u32], n_used: usize) {
     for attribute in &mut mesh.attributes {
         let stride = attribute.stride_bytes();
-        for (v, &index) in renumbered.iter().enumerate().filter(|&(_, &index)| index != UNUSED) {
+        for (v, &index) in renumbered.iter().enumerate().filter(|&(_, &index)| index != NO_INDEX) {
             // Never to a place behind the one it comes from.
             attribute.bytes.copy_within(v * stride..(v + 1) * stride, index as usize * stride);
         }
         attribute.bytes.truncate(n_used * stride);
     }
     let mut indices = renumbered.iter();
-    mesh.positions.retain(|_| indices.next().is_some_and(|&index| index != UNUSED));
+    mesh.positions.retain(|_| indices.next().is_some_and(|&index| index != NO_INDEX));
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! gaps that moves leave. Works for any triangles at all, manifold or not.
 
 use super::Renumbering;
+use crate::flat::to_index;
 
 /// Lists of triangle slots, one per vertex.
 #[derive(Clone, Debug, Default)]
@@ -37,6 +38,8 @@ pub fn facing_edge([a, b, c]: [u32; 3], v: u32) -> (u32, u32) {
 
 impl Stars {
     /// Stars of `n_vertices` vertices in `triangles`, each list in ascending order. O(n).
+    ///
+    /// A counting sort like that of `Groups`, but with room left in each list.
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let mut lists = vec![List::default(); n_vertices];
         for &v in triangles.as_flattened() {
@@ -96,7 +99,7 @@ impl Stars {
     /// Adds a vertex with an empty star and gives its index.
     pub fn add_vertex(&mut self) -> u32 {
         self.lists.push(List::default());
-        index(self.lists.len() - 1)
+        to_index(self.lists.len() - 1)
     }
 
     /// Closes gaps once they make up half of the pool. O(n) when it works, O(1) otherwise.
@@ -106,7 +109,7 @@ impl Stars {
         }
         let mut pool = Vec::with_capacity(self.lists.iter().map(|list| list.len as usize).sum());
         for list in &mut self.lists {
-            let start = index(pool.len());
+            let start = to_index(pool.len());
             pool.extend_from_slice(&self.pool[list.start as usize..][..list.len as usize]);
             *list = List { start, len: list.len, capacity: list.len };
         }
@@ -131,7 +134,7 @@ impl Stars {
             self.pool.reserve_exact(capacity as usize + start / 8);
         }
         self.pool.extend_from_within(list.start as usize..(list.start + list.len) as usize);
-        list.start = index(start);
+        list.start = to_index(start);
         list.capacity = capacity;
         self.pool.resize(start + capacity as usize, 0);
     }
@@ -144,14 +147,6 @@ fn position(members: &[u32], slot: u32) -> Option<usize> {
     let holds = |block: &[u32]| block.iter().fold(false, |found, &member| found | (member == slot));
     let start = BLOCK * members.chunks(BLOCK).position(holds)?;
     members[start..].iter().position(|&member| member == slot).map(|at| start + at)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the pool stays below six entries per triangle, compact() sees to it, and MAX_SIMPLICES leaves room for them"
-)]
-fn index(at: usize) -> u32 {
-    at as u32
 }
 
 #[cfg(test)]

@@ -14,8 +14,10 @@
 //! 5. A tetrahedron of zero volume with four distinct corners is kept: its neighbours are joined through it.
 //! 6. Vertices that no tetrahedron uses are dropped.
 
-use super::tetrahedra::{FACES, FaceLists, Sides, boundary_triangles};
-use nephrite_formats::{Attribute, TetrahedronMesh};
+use super::UsedVertices;
+use super::tetrahedra::{FACES, Sides, boundary_triangles, faces_by_least_vertex};
+use crate::flat::{DisjointSets, Groups};
+use nephrite_formats::TetrahedronMesh;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -108,36 +110,24 @@ fn first_at_position(mesh: &TetrahedronMesh) -> Vec<u32> {
 
 /// As `firsts`, but only where a tetrahedron has both vertices.
 fn first_in_tetrahedra(mesh: &TetrahedronMesh, firsts: &[u32]) -> Vec<u32> {
-    #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
-    let mut roots: Vec<u32> = (0..firsts.len() as u32).collect();
-    // Every other step of a way is made shorter, so that ways through very many vertices at one place are gone once.
-    let find = |roots: &mut [u32], mut v: u32| {
-        while roots[v as usize] != v {
-            let next = roots[roots[v as usize] as usize];
-            roots[v as usize] = next;
-            v = next;
-        }
-        v
-    };
+    let mut sets = DisjointSets::new(firsts.len());
     for tetrahedron in &mesh.tetrahedra {
         for (i, &a) in tetrahedron.iter().enumerate() {
             for &b in &tetrahedron[..i] {
                 if firsts[a as usize] == firsts[b as usize] {
-                    let (a, b) = (find(&mut roots, a), find(&mut roots, b));
-                    roots[a.max(b) as usize] = a.min(b);
+                    sets.join(a, b);
                 }
             }
         }
     }
-    #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
-    (0..firsts.len() as u32).map(|v| find(&mut roots, v)).collect()
+    (0..).take(firsts.len()).map(|v| sets.root(v)).collect()
 }
 
 /// Faces with more than two tetrahedra, and edges of the boundary with other than two faces.
 fn n_faults(tetrahedra: &[[u32; 4]], n_vertices: usize) -> usize {
     let mut n_faults = 0;
     let mut edges: Vec<[u32; 2]> = Vec::new();
-    for mut list in FaceLists::new(tetrahedra, n_vertices).into_lists() {
+    for list in faces_by_least_vertex(tetrahedra, n_vertices).iter_mut() {
         list.sort_unstable();
         for same in list.chunk_by(|a, b| a.others == b.others) {
             n_faults += usize::from(same.len() > 2);
@@ -173,25 +163,13 @@ fn keep_used(
     mut tetrahedra: Vec<[u32; 4]>,
     report: &mut TetrahedronRepairReport,
 ) -> TetrahedronMesh {
-    const UNUSED: u32 = u32::MAX;
-    let mut numbers = vec![UNUSED; input.positions.len()];
-    tetrahedra.iter().flatten().for_each(|&v| numbers[v as usize] = 0);
-    let mut used = Vec::new();
-    for (v, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number != UNUSED) {
-        *number = u32::try_from(used.len()).unwrap_or(UNUSED);
-        used.push(v);
-    }
+    let used = UsedVertices::new(input.positions.len(), tetrahedra.as_flattened());
     report.vertices_unreferenced = input.positions.len() - used.len() - report.vertices_welded;
-    tetrahedra.iter_mut().flatten().for_each(|v| *v = numbers[*v as usize]);
-    let attributes = input.attributes.iter().map(|attribute| {
-        let stride = attribute.stride_bytes();
-        let bytes = used.iter().flat_map(|&v| &attribute.bytes[v * stride..][..stride]).copied().collect();
-        Attribute { bytes, ..attribute.clone() }
-    });
+    used.renumber(tetrahedra.as_flattened_mut());
     TetrahedronMesh {
         origin: input.origin,
-        positions: used.iter().map(|&v| input.positions[v]).collect(),
-        attributes: attributes.collect(),
+        positions: used.pick(&input.positions),
+        attributes: used.pick_attributes(&input.attributes),
         tetrahedra,
         rounding: input.rounding,
     }
@@ -223,7 +201,7 @@ fn turn(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
 /// Of each tetrahedron the faces that a neighbour sees from the other side, and those it shares.
 fn fitting_faces(mesh: &TetrahedronMesh) -> Vec<[u8; 2]> {
     let mut counts = vec![[0; 2]; mesh.tetrahedra.len()];
-    for mut list in FaceLists::new(&mesh.tetrahedra, mesh.positions.len()).into_lists() {
+    for list in faces_by_least_vertex(&mesh.tetrahedra, mesh.positions.len()).iter_mut() {
         list.sort_unstable();
         for same in list.chunk_by(|a, b| a.others == b.others) {
             if let [a, b] = same {
@@ -241,24 +219,6 @@ fn fitting_faces(mesh: &TetrahedronMesh) -> Vec<[u8; 2]> {
 /// Largest star of a vertex that is moved: all of it is looked at once for each inverted tetrahedron there.
 const MAX_STAR: usize = 512;
 
-/// The tetrahedra at every vertex: those of vertex `v` are `slots[starts[v]..starts[v + 1]]`. O(n).
-fn stars(tetrahedra: &[[u32; 4]], n_vertices: usize) -> (Vec<usize>, Vec<usize>) {
-    let mut starts = vec![0; n_vertices + 2];
-    tetrahedra.as_flattened().iter().for_each(|&v| starts[v as usize + 2] += 1);
-    for v in 2..starts.len() {
-        starts[v] += starts[v - 1];
-    }
-    let mut slots = vec![0; 4 * tetrahedra.len()];
-    for (slot, tetrahedron) in tetrahedra.iter().enumerate() {
-        for &v in tetrahedron {
-            let next = &mut starts[v as usize + 1];
-            slots[*next] = slot;
-            *next += 1;
-        }
-    }
-    (starts, slots)
-}
-
 /// Moves vertices to make volumes positive, by rule 4.
 fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     let inverted: Vec<[u32; 4]> =
@@ -273,15 +233,15 @@ fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
             FACES[corner].iter().for_each(|&i| is_on_boundary[tetrahedron[i] as usize] = true);
         }
     }
-    let (starts, slots) = stars(&mesh.tetrahedra, mesh.positions.len());
-    let star = |v: u32| &slots[starts[v as usize]..starts[v as usize + 1]];
+    let at_corners = (0..).zip(&mesh.tetrahedra).flat_map(|(slot, t)| t.map(|v| (v, slot)));
+    let stars: Groups<u32> = Groups::new(mesh.positions.len(), at_corners);
     for tetrahedron in inverted {
         if mesh.six_volumes(tetrahedron) >= 0.0 {
             continue;
         }
-        let may_move = |v: u32| !is_on_boundary[v as usize] && star(v).len() <= MAX_STAR;
+        let may_move = |v: u32| !is_on_boundary[v as usize] && stars.of(v).len() <= MAX_STAR;
         for v in tetrahedron.into_iter().filter(|&v| may_move(v)) {
-            if move_to_middle(mesh, v, star(v)) {
+            if move_to_middle(mesh, v, stars.of(v)) {
                 report.vertices_moved += 1;
                 break;
             }
@@ -324,9 +284,9 @@ fn ascending(a: u32, b: u32) -> [u32; 2] {
 }
 
 /// Moves a vertex with a star as little as makes every tetrahedron around it positive, or not at all.
-fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32, star: &[usize]) -> bool {
+fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32, star: &[u32]) -> bool {
     const PARTS: f32 = 16.0;
-    let star: Vec<[u32; 4]> = star.iter().map(|&slot| mesh.tetrahedra[slot]).collect();
+    let star: Vec<[u32; 4]> = star.iter().map(|&slot| mesh.tetrahedra[slot as usize]).collect();
     let others: Vec<u32> = star.iter().flatten().copied().filter(|&w| w != v).collect();
     let mut middle = [0.0_f32; 3];
     for &w in &others {

@@ -4,13 +4,14 @@
 //! without being touched when tetrahedra around it die: whoever reads it passes over the dead. A new vertex gets its star at
 //! the end of the pool, once.
 
+use crate::flat::{Groups, NO_INDEX};
 use crate::geometry::vector::{cross, dot, sub};
 
 /// Corners of the face opposite each corner, counter-clockwise seen from outside a tetrahedron of positive volume.
 pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// First corner of a slot whose tetrahedron is dead.
-const DEAD: u32 = u32::MAX;
+const DEAD: u32 = NO_INDEX;
 
 /// Tetrahedra in slots over growing vertices.
 ///
@@ -39,25 +40,13 @@ struct Star {
 }
 
 impl Tetrahedra {
-    /// Tetrahedra over vertices at these positions, each in the slot of its index. No two share all four corners. O(n).
+    /// Tetrahedra over vertices at these positions, each in the slot of its index. No two share all
+    /// four corners. O(n).
     pub fn new(positions: Vec<[f32; 3]>, corners: Vec<[u32; 4]>) -> Self {
-        let mut stars = vec![Star::default(); positions.len()];
-        for &v in corners.as_flattened() {
-            stars[v as usize].len += 1;
-        }
-        let mut start = 0;
-        for star in &mut stars {
-            star.start = start;
-            start += std::mem::take(&mut star.len);
-        }
-        let mut pool = vec![0; start as usize];
-        for (slot, tetrahedron) in (0..).zip(&corners) {
-            for &v in tetrahedron {
-                let star = &mut stars[v as usize];
-                pool[(star.start + star.len) as usize] = slot;
-                star.len += 1;
-            }
-        }
+        let at_corners = (0..).zip(&corners).flat_map(|(slot, t)| t.map(|v| (v, slot)));
+        let (starts, pool) = Groups::new(positions.len(), at_corners).into_parts();
+        let star = |ends: &[u32]| Star { start: ends[0], len: ends[1] - ends[0], n_dead: 0 };
+        let stars = starts.windows(2).map(star).collect();
         let Sides { boundary, misfits } = Sides::new(&corners, positions.len());
         let n_alive = corners.len();
         Self {
@@ -223,7 +212,7 @@ impl Sides {
     /// Faces meet in the list of their least vertex, so that nothing is hashed and no list is longer than a star. O(n).
     pub(super) fn new(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Self {
         let mut sides = Self { boundary: vec![0; tetrahedra.len()], misfits: vec![] };
-        for (v, mut list) in (0..).zip(FaceLists::new(tetrahedra, n_vertices).into_lists()) {
+        for (v, list) in (0..).zip(faces_by_least_vertex(tetrahedra, n_vertices).iter_mut()) {
             list.sort_unstable();
             for same in list.chunk_by(|a, b| a.others == b.others) {
                 match same {
@@ -265,46 +254,14 @@ impl Face {
     }
 }
 
-/// The faces of all tetrahedra by their least vertex.
-pub(super) struct FaceLists {
-    ends: Vec<u32>,
-    faces: Vec<Face>,
-}
-
-impl FaceLists {
-    pub(super) fn new(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Self {
-        let least = |tetrahedron: &[u32; 4], corner: usize| {
-            let mut face = FACES[corner].map(|i| tetrahedron[i]);
-            face.sort_unstable();
-            face
-        };
-        let mut ends = vec![0u32; n_vertices + 1];
-        for tetrahedron in tetrahedra {
-            (0..4).for_each(|corner| ends[least(tetrahedron, corner)[0] as usize + 1] += 1);
-        }
-        for v in 1..ends.len() {
-            ends[v] += ends[v - 1];
-        }
-        let mut faces = vec![Face::default(); 4 * tetrahedra.len()];
-        for (slot, tetrahedron) in (0..).zip(tetrahedra) {
-            for corner in 0..4 {
-                let [v, a, b] = least(tetrahedron, corner as usize);
-                let end = &mut ends[v as usize];
-                faces[*end as usize] = Face { others: [a, b], slot, corner };
-                *end += 1;
-            }
-        }
-        Self { ends, faces }
-    }
-
-    /// The list of every vertex that is the least of a face.
-    pub(super) fn into_lists(self) -> impl Iterator<Item = Vec<Face>> {
-        let Self { ends, faces } = self;
-        let mut start = 0;
-        ends.into_iter().map(move |end| {
-            let range = start..(end as usize).max(start);
-            start = range.end;
-            faces[range].to_vec()
-        })
-    }
+/// The faces of all tetrahedra by their least vertex. O(n).
+pub(super) fn faces_by_least_vertex(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Groups<Face> {
+    let face = |slot: u32, tetrahedron: &[u32; 4], corner: u32| {
+        let mut vertices = FACES[corner as usize].map(|i| tetrahedron[i]);
+        vertices.sort_unstable();
+        let [least, a, b] = vertices;
+        (least, Face { others: [a, b], slot, corner })
+    };
+    let faces = (0..).zip(tetrahedra).flat_map(|(slot, t)| [0, 1, 2, 3].map(|corner| face(slot, t, corner)));
+    Groups::new(n_vertices, faces)
 }

@@ -6,6 +6,7 @@ use super::growth::{Growth, Kind};
 use super::plan::{Planned, plan};
 use super::planes::{Planes, difference, plane};
 use crate::Build;
+use crate::flat::NO_INDEX;
 use nephrite_formats::TriangleMesh;
 
 /// A stream and its sizes.
@@ -51,8 +52,6 @@ pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
     Ok(writer.finish())
 }
 
-const UNKNOWN: u32 = u32::MAX;
-
 struct Writer<'a> {
     mesh: &'a TriangleMesh,
     stride_bytes: usize,
@@ -75,8 +74,8 @@ impl<'a> Writer<'a> {
             mesh,
             stride_bytes,
             growth: Growth::default(),
-            number: vec![UNKNOWN; mesh.positions.len()],
-            triangle: vec![UNKNOWN; mesh.triangles.len()],
+            number: vec![NO_INDEX; mesh.positions.len()],
+            triangle: vec![NO_INDEX; mesh.triangles.len()],
             vertices: Vec::new(),
             planes: Planes::new(stride_bytes),
             link: Vec::new(),
@@ -98,7 +97,7 @@ impl<'a> Writer<'a> {
             }
             // A vertex that does not exist yet has no star to split: its triangles are written one
             // by one.
-            Planned::EdgeSplit { beside, born, .. } if self.number[*beside as usize] == UNKNOWN => {
+            Planned::EdgeSplit { beside, born, .. } if self.number[*beside as usize] == NO_INDEX => {
                 born.iter().for_each(|&(slot, corners)| self.put_triangle(slot, corners));
                 born.len()
             }
@@ -174,7 +173,7 @@ impl<'a> Writer<'a> {
     /// Writes the number of a vertex. A new vertex gets the next number and is described.
     fn put_vertex_or_new(&mut self, vertex: u32, near: usize) {
         let number = self.number[vertex as usize];
-        if number == UNKNOWN {
+        if number == NO_INDEX {
             self.planes.put_u32(plane::VERTICES, count(self.vertices.len()));
             self.put_new(vertex, near);
         } else {

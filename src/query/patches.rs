@@ -1,6 +1,7 @@
 //! Which triangles replaced which, between two neighbouring levels.
 
 use super::Lod;
+use crate::flat::{DisjointSets, Groups, NO_INDEX};
 use std::collections::HashMap;
 
 /// The part of the surface that changes between a level and the next one, cut into patches: the
@@ -15,10 +16,8 @@ pub(super) struct Patches {
     /// Leaving triangles, then entering ones.
     pub triangles: Vec<[u32; 3]>,
     pub n_leaving: usize,
-    /// Entering triangles of all patches, patch by patch.
-    entering: Vec<u32>,
-    /// Patch `p` has `entering[starts[p]..starts[p + 1]]`.
-    starts: Vec<u32>,
+    /// Entering triangles of each patch.
+    entering: Groups<u32>,
     /// Patch of each triangle.
     patch: Vec<u32>,
 }
@@ -39,59 +38,48 @@ impl Patches {
 
     /// The entering triangles of the patch that a triangle is in.
     pub(super) fn replacements(&self, triangle: usize) -> &[u32] {
-        let patch = self.patch[triangle] as usize;
-        &self.entering[self.starts[patch] as usize..self.starts[patch + 1] as usize]
+        self.entering.of(self.patch[triangle])
     }
 
-    fn gather(triangles: Vec<[u32; 3]>, n_leaving: usize, mut sets: Sets) -> Self {
+    fn gather(triangles: Vec<[u32; 3]>, n_leaving: usize, mut sets: DisjointSets) -> Self {
         let mut n_patches = 0;
-        let mut patch_of_root = vec![u32::MAX; triangles.len()];
+        let mut patch_of_root = vec![NO_INDEX; triangles.len()];
         let mut patch = Vec::with_capacity(triangles.len());
-        for triangle in 0..triangles.len() {
-            let entry = &mut patch_of_root[sets.root(triangle)];
-            if *entry == u32::MAX {
+        for triangle in (0..).take(triangles.len()) {
+            let entry = &mut patch_of_root[sets.root(triangle) as usize];
+            if *entry == NO_INDEX {
                 *entry = n_patches;
                 n_patches += 1;
             }
             patch.push(*entry);
         }
-        let mut starts = vec![0; n_patches as usize + 1];
-        for &patch in &patch[n_leaving..] {
-            starts[patch as usize + 1] += 1;
-        }
-        for patch in 0..n_patches as usize {
-            starts[patch + 1] += starts[patch];
-        }
-        let mut next = starts.clone();
-        let mut entering = vec![0; triangles.len() - n_leaving];
-        // Slots, and so triangles, are counted in 32 bits.
-        for (triangle, &patch) in (0u32..).zip(&patch).skip(n_leaving) {
-            let place = &mut next[patch as usize];
-            entering[*place as usize] = triangle;
-            *place += 1;
-        }
-        Self { triangles, n_leaving, entering, starts, patch }
+        let of_entering = patch.iter().copied().zip(0..).skip(n_leaving);
+        let entering = Groups::new(n_patches as usize, of_entering);
+        Self { triangles, n_leaving, entering, patch }
     }
 }
 
 /// Triangles at one directed edge.
 #[derive(Clone, Copy, Default)]
 struct AtEdge {
-    leaving: Option<usize>,
-    entering: Option<usize>,
+    leaving: Option<u32>,
+    entering: Option<u32>,
 }
 
 /// Joins the triangles of each patch.
-fn join(triangles: &[[u32; 3]], n_leaving: usize) -> Sets {
-    let mut sets = Sets::new(triangles.len());
+fn join(triangles: &[[u32; 3]], n_leaving: usize) -> DisjointSets {
+    let mut sets = DisjointSets::new(triangles.len());
     let mut edges: HashMap<[u32; 2], AtEdge> = HashMap::with_capacity(3 * triangles.len());
-    for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
+    for (triangle, &[a, b, c]) in (0..).zip(triangles) {
         for edge in [[a, b], [b, c], [c, a]] {
             let at_edge = edges.entry(edge).or_default();
-            let known = if triangle < n_leaving { &mut at_edge.leaving } else { &mut at_edge.entering };
+            let known =
+                if (triangle as usize) < n_leaving { &mut at_edge.leaving } else { &mut at_edge.entering };
             match *known {
                 // A second triangle at the same directed edge: not an oriented manifold.
-                Some(other) => sets.join(triangle, other),
+                Some(other) => {
+                    sets.join(triangle, other);
+                }
                 None => *known = Some(triangle),
             }
         }
@@ -114,33 +102,4 @@ fn join(triangles: &[[u32; 3]], n_leaving: usize) -> Sets {
         }
     }
     sets
-}
-
-/// Disjoint sets of the numbers below a count.
-///
-/// Reference: R. E. Tarjan: "Efficiency of a good but not linear set union algorithm" (Journal of
-/// the ACM 22, 1975), with path halving.
-struct Sets {
-    parents: Vec<usize>,
-}
-
-impl Sets {
-    fn new(len: usize) -> Self {
-        Self { parents: (0..len).collect() }
-    }
-
-    fn root(&mut self, mut member: usize) -> usize {
-        while self.parents[member] != member {
-            self.parents[member] = self.parents[self.parents[member]];
-            member = self.parents[member];
-        }
-        member
-    }
-
-    /// The smaller root stays, so the sets do not depend on the order of joining.
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (low, high) = (a.min(b), a.max(b));
-        self.parents[high] = low;
-    }
 }

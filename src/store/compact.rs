@@ -6,6 +6,7 @@
 
 use super::OpenError;
 use super::pieces::Pieces;
+use crate::flat::NO_INDEX;
 use nephrite_formats::neph::{index_bytes, stamp_bytes};
 
 /// Bits of a word.
@@ -24,14 +25,13 @@ pub(super) struct CompactSlots {
 impl CompactSlots {
     /// `slots` holds the id of a piece each. Memory: 4 bytes per simplex of the history and per slot.
     pub(super) fn new<const CORNERS: usize>(slots: &[u32], pieces: &Pieces<'_, CORNERS>) -> Self {
-        const UNSEEN: u32 = u32::MAX;
-        let mut places = vec![UNSEEN; pieces.n_simplices()];
+        let mut places = vec![NO_INDEX; pieces.n_simplices()];
         let (mut distinct, mut repeat_sources) = (Vec::new(), Vec::new());
         let mut repeat_bits = vec![0u64; slots.len().div_ceil(WORD_BITS)];
         let mut next = 0;
         for (slot, &id) in slots.iter().enumerate() {
             let place = &mut places[pieces.simplex(id) as usize];
-            if *place == UNSEEN {
+            if *place == NO_INDEX {
                 *place = next;
                 next += 1;
                 distinct.push(id);

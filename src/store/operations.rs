@@ -1,6 +1,7 @@
 //! Whether the operations of a file build its level 0 up.
 
 use super::{Opened, VerifyError};
+use crate::flat::canonical;
 use crate::progressive_mesh::ProgressiveMesh;
 use rayon::prelude::*;
 
@@ -41,18 +42,7 @@ impl Opened {
 fn shapes(positions: &[[f32; 3]], triangles: impl Iterator<Item = [u32; 3]>) -> Vec<Shape> {
     let corner =
         |v: u32| positions.get(v as usize).map_or([u32::MAX; 3], |at| at.map(|x| (x + 0.0).to_bits()));
-    let mut shapes: Vec<Shape> = triangles
-        .map(|triangle| {
-            let [a, b, c] = triangle.map(corner);
-            if a <= b && a <= c {
-                [a, b, c]
-            } else if b <= c {
-                [b, c, a]
-            } else {
-                [c, a, b]
-            }
-        })
-        .collect();
+    let mut shapes: Vec<Shape> = triangles.map(|triangle| canonical(triangle.map(corner))).collect();
     shapes.par_sort_unstable();
     shapes
 }

@@ -1,9 +1,7 @@
 //! Ordering triangles fan by fan.
 
 use super::CACHE_LEN;
-
-/// No vertex, and no place for one.
-const NONE: u32 = u32::MAX;
+use crate::flat::{Groups, NO_INDEX, to_index};
 
 /// Orders triangles so that neighbours are drawn while their vertices are in the cache.
 ///
@@ -27,7 +25,7 @@ pub struct FanOrder {
 impl FanOrder {
     /// For triangles of vertices below `n_vertices`.
     pub fn new(n_vertices: usize) -> Self {
-        Self { place: vec![NONE; n_vertices], vertices: Vec::new() }
+        Self { place: vec![NO_INDEX; n_vertices], vertices: Vec::new() }
     }
 
     /// The order of `triangles`: each index below their number, once.
@@ -55,7 +53,7 @@ impl FanOrder {
         triangles.as_flattened_mut().iter_mut().for_each(|vertex| *vertex = self.place[*vertex as usize]);
         let n_vertices = self.vertices.len();
         for vertex in std::mem::take(&mut self.vertices) {
-            self.place[vertex as usize] = NONE;
+            self.place[vertex as usize] = NO_INDEX;
         }
         Some(Drawing::new(triangles, n_vertices).run())
     }
@@ -65,7 +63,7 @@ impl FanOrder {
         let mut next_place = 0;
         for &vertex in triangles.as_flattened() {
             let place = &mut self.place[vertex as usize];
-            if *place == NONE {
+            if *place == NO_INDEX {
                 *place = next_place;
                 next_place += 1;
                 self.vertices.push(vertex);
@@ -78,9 +76,8 @@ impl FanOrder {
 /// their places.
 struct Drawing {
     corners: Vec<[u32; 3]>,
-    /// Triangles around vertex `v` are `around[starts[v]..starts[v + 1]]`.
-    starts: Vec<u32>,
-    around: Vec<u32>,
+    /// Triangles around each vertex.
+    around: Groups<u32>,
     n_left: Vec<u32>,
     is_drawn: Vec<bool>,
     /// Misses so far, and the number of misses at which each vertex came in.
@@ -95,22 +92,11 @@ struct Drawing {
 
 impl Drawing {
     fn new(corners: Vec<[u32; 3]>, n_vertices: usize) -> Self {
-        let mut starts = vec![0; n_vertices + 1];
-        for &vertex in corners.as_flattened() {
-            starts[vertex as usize + 1] += 1;
-        }
-        for vertex in 0..n_vertices {
-            starts[vertex + 1] += starts[vertex];
-        }
-        let mut n_left = vec![0; n_vertices];
-        let mut around = vec![0; 3 * corners.len()];
-        for (triangle, vertices) in (0..).zip(&corners) {
-            for &vertex in vertices {
-                let vertex = vertex as usize;
-                around[(starts[vertex] + n_left[vertex]) as usize] = triangle;
-                n_left[vertex] += 1;
-            }
-        }
+        let around = Groups::new(
+            n_vertices,
+            (0..).zip(&corners).flat_map(|(triangle, vertices)| vertices.map(|vertex| (vertex, triangle))),
+        );
+        let n_left = (0..).take(n_vertices).map(|vertex| to_index(around.of(vertex).len())).collect();
         Self {
             is_drawn: vec![false; corners.len()],
             order: Vec::with_capacity(corners.len()),
@@ -119,7 +105,6 @@ impl Drawing {
             long_trail: n_vertices,
             time: CACHE_LEN + 1,
             corners,
-            starts,
             around,
             n_left,
         }
@@ -143,8 +128,8 @@ impl Drawing {
     }
 
     fn draw_around(&mut self, vertex: u32) {
-        for entry in self.starts[vertex as usize]..self.starts[vertex as usize + 1] {
-            let triangle = self.around[entry as usize];
+        for at in self.around.range(vertex) {
+            let triangle = *self.around.member(at);
             if std::mem::replace(&mut self.is_drawn[triangle as usize], true) {
                 continue;
             }

@@ -1,31 +1,19 @@
 //! The surface around a volume.
 
-use crate::mesh::boundary_triangles;
-use nephrite_formats::{Attribute, TetrahedronMesh, TriangleMesh};
+use crate::mesh::{UsedVertices, boundary_triangles};
+use nephrite_formats::{TetrahedronMesh, TriangleMesh};
 
 /// The faces that belong to one tetrahedron only, counter-clockwise as seen from outside if the
 /// tetrahedra have positive volume. Boundary vertices keep their order and their values; inner
 /// vertices are left out. O(n).
 pub fn boundary(volume: &TetrahedronMesh) -> TriangleMesh {
-    const UNUSED: u32 = u32::MAX;
     let mut triangles = boundary_triangles(&volume.tetrahedra, volume.positions.len());
-    let mut numbers = vec![UNUSED; volume.positions.len()];
-    triangles.as_flattened().iter().for_each(|&v| numbers[v as usize] = 0);
-    let mut used = Vec::new();
-    for (v, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number != UNUSED) {
-        *number = u32::try_from(used.len()).unwrap_or(UNUSED);
-        used.push(v);
-    }
-    triangles.as_flattened_mut().iter_mut().for_each(|v| *v = numbers[*v as usize]);
-    let attributes = volume.attributes.iter().map(|attribute| {
-        let stride = attribute.stride_bytes();
-        let bytes = used.iter().flat_map(|&v| &attribute.bytes[v * stride..][..stride]).copied().collect();
-        Attribute { bytes, name: attribute.name.clone(), ..*attribute }
-    });
+    let used = UsedVertices::new(volume.positions.len(), triangles.as_flattened());
+    used.renumber(triangles.as_flattened_mut());
     TriangleMesh {
         origin: volume.origin,
-        positions: used.iter().map(|&v| volume.positions[v]).collect(),
-        attributes: attributes.collect(),
+        positions: used.pick(&volume.positions),
+        attributes: used.pick_attributes(&volume.attributes),
         triangles,
         rounding: volume.rounding,
     }

@@ -4,10 +4,8 @@
 //! was a third of the build. Here a record that changes is written anew behind the others, and [`Records::close_up`] closes the
 //! gaps where they are, without a second pool. What changed together then lies together.
 
+use crate::flat::NO_INDEX;
 use crate::mesh::Renumbering;
-
-/// No record, or a record without an owner.
-const NONE: u32 = u32::MAX;
 
 /// Words before each record: its owner and its length.
 pub(super) const HEADER: usize = 2;
@@ -31,13 +29,13 @@ impl Records {
     /// No record, for any of `n_owners` owners, and room for `n_words`: memory that is not touched before it is needed, and that a pool
     /// which grew as it goes would leave behind in pieces.
     pub(super) fn new(n_owners: usize, n_words: usize) -> Self {
-        Self { first: vec![NONE; n_owners], words: Vec::with_capacity(n_words), n_used: 0, n_touched: 0 }
+        Self { first: vec![NO_INDEX; n_owners], words: Vec::with_capacity(n_words), n_used: 0, n_touched: 0 }
     }
 
     /// Whether `owner` has a record.
     #[inline]
     pub(super) fn has(&self, owner: u32) -> bool {
-        self.first[owner as usize] != NONE
+        self.first[owner as usize] != NO_INDEX
     }
 
     /// The record of `owner`; empty where there is none.
@@ -57,9 +55,9 @@ impl Records {
 
     /// Drops the record of `owner`, if it has one. O(1).
     pub(super) fn clear(&mut self, owner: u32) {
-        let first = std::mem::replace(&mut self.first[owner as usize], NONE);
+        let first = std::mem::replace(&mut self.first[owner as usize], NO_INDEX);
         if let Some([owner, n_words, ..]) = self.words.get_mut(first as usize..) {
-            *owner = NONE;
+            *owner = NO_INDEX;
             self.n_used -= HEADER + *n_words as usize;
         }
     }
@@ -89,14 +87,14 @@ impl Records {
             // Most records lie side by side with others that stay: those are moved together.
             let start = from;
             while let Some(&[owner, n_words, ..]) = self.words.get(from..)
-                && owner != NONE
+                && owner != NO_INDEX
             {
                 self.first[owner as usize] = (to + from - start) as u32;
                 from += HEADER + n_words as usize;
             }
             self.words.copy_within(start..from, to);
             to += from - start;
-            while let Some(&[NONE, n_words, ..]) = self.words.get(from..) {
+            while let Some(&[NO_INDEX, n_words, ..]) = self.words.get(from..) {
                 from += HEADER + n_words as usize;
             }
         }
@@ -112,7 +110,7 @@ impl Records {
         owners.close_up(&mut self.first);
         let mut at = 0;
         while let Some([owner, n_words, ..]) = self.words.get_mut(at..) {
-            if *owner != NONE {
+            if *owner != NO_INDEX {
                 *owner = owners.place(*owner);
             }
             at += HEADER + *n_words as usize;
@@ -124,7 +122,7 @@ impl Records {
         let mut rest = self.words.as_mut_slice();
         while let [owner, n_words, behind @ ..] = rest {
             let (record, behind) = behind.split_at_mut(*n_words as usize);
-            if *owner != NONE {
+            if *owner != NO_INDEX {
                 take(record);
             }
             rest = behind;

@@ -1,5 +1,8 @@
 //! The input, as far as the proof needs it: its edges.
 
+use crate::flat::{Groups, to_index};
+use std::ops::Range;
+
 /// Edges of a triangle mesh, in flat arrays. Edges are numbered by their lower end, then by
 /// their higher one, so that those to higher vertices lie side by side, and the lower end need not be written down.
 ///
@@ -17,8 +20,8 @@ pub struct SourceEdges {
 /// Edges between two whose lower end is written down.
 const BLOCK: usize = 16;
 
-/// So few edges are gone through one by one.
-const FEW: usize = 8;
+/// Of at most so many edges the one looked for is found by going through them.
+const MAX_LINEAR_SEARCH: usize = 8;
 
 /// More edges up from a vertex than this are not gone through for the sake of a few.
 const HUB: usize = 64;
@@ -26,20 +29,18 @@ const HUB: usize = 64;
 impl SourceEdges {
     /// Edges of `triangles` over `n_vertices` vertices. O(n log valence).
     pub fn new(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> Self {
-        let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
-        let mut sides = Groups::new(n_vertices, triangles.flat_map(sides));
+        let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| (p.min(q), p.max(q)));
+        let (starts, mut highs) = Groups::new(n_vertices, triangles.flat_map(sides)).into_parts();
         let mut first_up = Vec::with_capacity(n_vertices + 1);
         first_up.push(0);
         let mut lows = vec![];
         let mut n_edges = 0;
-        for low in (0..).take(n_vertices) {
-            let n_distinct = sides.sort_and_keep_distinct(low, n_edges);
-            n_edges += n_distinct;
+        for (low, ends) in (0..).zip(starts.windows(2)) {
+            n_edges += sort_and_keep_distinct(&mut highs, ends[0] as usize..ends[1] as usize, n_edges);
             lows.resize(n_edges.div_ceil(BLOCK), low);
-            first_up.push(index(n_edges));
+            first_up.push(to_index(n_edges));
         }
-        lows.push(index(n_vertices));
-        let mut highs = sides.members;
+        lows.push(to_index(n_vertices));
         highs.truncate(n_edges);
         highs.shrink_to_fit();
         Self { highs, first_up, lows }
@@ -62,7 +63,7 @@ impl SourceEdges {
         let block = edge as usize / BLOCK;
         let (first, last) = (self.lows[block], self.lows[block + 1]);
         let starts = &self.first_up[first as usize + 1..=last as usize];
-        first + index(starts.partition_point(|&start| start <= edge))
+        first + to_index(starts.partition_point(|&start| start <= edge))
     }
 
     /// Edges from `v` to higher vertices, each with its higher end, in ascending order.
@@ -91,60 +92,28 @@ impl SourceEdges {
     pub fn edge(&self, low: u32, high: u32) -> Option<u32> {
         let start = self.first_up[low as usize];
         let highs = &self.highs[start as usize..][..self.n_up(low)];
-        let found = if highs.len() <= FEW {
+        let found = if highs.len() <= MAX_LINEAR_SEARCH {
             highs.iter().position(|&other| other == high)
         } else {
             highs.binary_search(&high).ok()
         };
-        found.map(|at| start + index(at))
+        found.map(|at| start + to_index(at))
     }
 }
 
-/// The second numbers of pairs, grouped by the first, by counting; the last pair of a group comes first.
-struct Groups {
-    first: Vec<u32>,
-    members: Vec<u32>,
-}
-
-impl Groups {
-    fn new(n_groups: usize, pairs: impl Iterator<Item = [u32; 2]> + Clone) -> Self {
-        let mut first = vec![0; n_groups + 1];
-        pairs.clone().for_each(|[group, _]| first[group as usize] += 1);
-        let mut end = 0;
-        for count in &mut first {
-            end += *count;
-            *count = end;
+/// Sorts the members of a group, which are at `from`, and writes each of them once to the places from
+/// `to` on, which must not be behind theirs. How many there are.
+fn sort_and_keep_distinct(members: &mut [u32], from: Range<usize>, to: usize) -> usize {
+    members[from.clone()].sort_unstable();
+    let mut n_kept = 0;
+    for at in from {
+        let member = members[at];
+        if n_kept == 0 || members[to + n_kept - 1] != member {
+            members[to + n_kept] = member;
+            n_kept += 1;
         }
-        // Each entry of `first` begins at the end of its group and ends at its start.
-        let mut members = vec![0; end as usize];
-        pairs.for_each(|[group, member]| {
-            let at = &mut first[group as usize];
-            *at -= 1;
-            members[*at as usize] = member;
-        });
-        Self { first, members }
     }
-
-    /// Sorts the members of `group` and writes each of them once to the places from `start` on, which must not be behind theirs. How
-    /// many there are.
-    fn sort_and_keep_distinct(&mut self, group: u32, start: usize) -> usize {
-        let [first, end] = [0, 1].map(|next| self.first[group as usize + next] as usize);
-        self.members[first..end].sort_unstable();
-        let mut n_kept = 0;
-        for at in first..end {
-            let member = self.members[at];
-            if n_kept == 0 || self.members[start + n_kept - 1] != member {
-                self.members[start + n_kept] = member;
-                n_kept += 1;
-            }
-        }
-        n_kept
-    }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a mesh of u32 vertices and triangles has u32 edges")]
-fn index(at: usize) -> u32 {
-    at as u32
+    n_kept
 }
 
 #[cfg(test)]

@@ -1,10 +1,12 @@
 //! What a vertex is to the boundary, and which boundary vertices may become one.
 //!
 //! Corners stay where they are, creases shrink along themselves only: the vertices of a fusion that lie on creases must be
-//! neighbours along one crease, and the fusion point is one of them. The neighbours along a crease are kept by the vertex they
-//! were at the start; whom that vertex has become is found by following its heirs.
+//! neighbours along one crease, and the fusion point is one of them. The neighbours along a crease
+//! are kept as the vertices they were at first; which vertices those have been merged into is looked
+//! up when it is asked for.
 
 use super::links::irregular;
+use crate::flat::{DisjointSets, NO_INDEX};
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Tetrahedra;
 
@@ -24,17 +26,14 @@ pub(super) enum Kind {
     Locked,
 }
 
-/// No vertex.
-const NONE: u32 = u32::MAX;
-
 /// The kinds of all vertices, and the creases.
 #[derive(Clone, Debug)]
 pub(super) struct Creases {
     kinds: Vec<Kind>,
     /// Neighbours of each crease vertex along its crease.
     along: Vec<[u32; 2]>,
-    /// What each vertex has become; itself while it lives.
-    heirs: Vec<u32>,
+    /// Vertices that have become one, which is the root.
+    merged: DisjointSets,
 }
 
 impl Creases {
@@ -48,16 +47,17 @@ impl Creases {
                 rims[v as usize].push(rim);
             }
         }
-        #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
-        let heirs: Vec<u32> = (0..n_vertices as u32).collect();
-        let mut creases =
-            Self { kinds: vec![Kind::Interior; n_vertices], along: vec![[NONE; 2]; n_vertices], heirs };
+        let mut creases = Self {
+            kinds: vec![Kind::Interior; n_vertices],
+            along: vec![[NO_INDEX; 2]; n_vertices],
+            merged: DisjointSets::new(n_vertices),
+        };
         for (v, rim) in (0..).zip(&rims).filter(|(_, rim)| !rim.is_empty()) {
             creases.classify(mesh, v, rim, cos_feature_angle);
         }
         for v in irregular(mesh, &rims) {
             creases.kinds[v as usize] = Kind::Locked;
-            creases.along[v as usize] = [NONE; 2];
+            creases.along[v as usize] = [NO_INDEX; 2];
         }
         creases
     }
@@ -95,7 +95,7 @@ impl Creases {
 
     /// Where boundary vertices that become one may go, or `None` where they may not.
     pub(super) fn anchor(&mut self, members: &[u32]) -> Option<Anchor> {
-        let mut sharp = [NONE; 4];
+        let mut sharp = [NO_INDEX; 4];
         let mut n_sharp = 0;
         let mut corner = None;
         for &v in members {
@@ -113,7 +113,7 @@ impl Creases {
         if n_sharp > 1 && !self.is_chain(sharp) {
             return None;
         }
-        let mut vertices = [NONE; 4];
+        let mut vertices = [NO_INDEX; 4];
         let source = match corner {
             Some(ref corner) => std::slice::from_ref(corner),
             None if n_sharp > 0 => sharp,
@@ -126,13 +126,13 @@ impl Creases {
     /// Whether crease vertices, and a corner perhaps, hang together along a crease that goes on at its other ends.
     fn is_chain(&mut self, sharp: &[u32]) -> bool {
         let mut n_links = 0;
-        let mut ends = [NONE; 8];
+        let mut ends = [NO_INDEX; 8];
         let mut n_ends = 0;
         let mut reached = 1_u32;
         for _ in 0..sharp.len() {
             for (i, &v) in sharp.iter().enumerate() {
                 for next in self.crease_neighbours(v) {
-                    let next = self.find(next);
+                    let next = self.merged_into(next);
                     if let Some(j) = sharp.iter().position(|&w| w == next)
                         && reached & (1 << i | 1 << j) != 0
                     {
@@ -143,7 +143,7 @@ impl Creases {
         }
         for &v in sharp {
             for next in self.crease_neighbours(v) {
-                let next = self.find(next);
+                let next = self.merged_into(next);
                 if let Some(w) = sharp.iter().find(|&&w| w == next) {
                     // A link between two crease vertices is seen from both of them.
                     n_links += if self.kinds[*w as usize] == Kind::Crease { 1 } else { 2 };
@@ -161,12 +161,12 @@ impl Creases {
     /// A new vertex takes the place of others.
     pub(super) fn add_vertex(&mut self, replaced: &[u32]) {
         let kind = replaced.iter().map(|&v| self.kind(v)).max().unwrap_or(Kind::Interior);
-        let mut along = [NONE; 2];
+        let mut along = [NO_INDEX; 2];
         if kind == Kind::Crease {
             let mut n_along = 0;
             for &v in replaced {
                 for next in self.crease_neighbours(v) {
-                    let next = self.find(next);
+                    let next = self.merged_into(next);
                     if !replaced.contains(&next) && n_along < 2 {
                         along[n_along] = next;
                         n_along += 1;
@@ -174,12 +174,9 @@ impl Creases {
                 }
             }
         }
-        #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
-        let new = self.heirs.len() as u32;
         self.kinds.push(kind);
         self.along.push(along);
-        self.heirs.push(new);
-        replaced.iter().for_each(|&v| self.heirs[v as usize] = new);
+        self.merged.push_over(replaced);
     }
 
     /// Neighbours along the crease of a crease vertex, none of any other.
@@ -188,15 +185,9 @@ impl Creases {
         self.along[v as usize].into_iter().filter(move |_| is_crease)
     }
 
-    /// What a vertex has become.
-    fn find(&mut self, mut v: u32) -> u32 {
-        while v != NONE && self.heirs[v as usize] != v {
-            let heir = self.heirs[v as usize];
-            // Halve the way for the next who asks.
-            self.heirs[v as usize] = self.heirs[heir as usize];
-            v = heir;
-        }
-        v
+    /// The vertex that `v` has been merged into; `v` itself while it lives.
+    fn merged_into(&mut self, v: u32) -> u32 {
+        if v == NO_INDEX { v } else { self.merged.root(v) }
     }
 }
 

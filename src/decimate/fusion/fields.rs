@@ -1,6 +1,7 @@
 //! Fields carried along: their values at fusion points, and how far they have come from those of the input.
 
 use super::neighbourhood::Neighbourhood;
+use crate::geometry::barycentric::barycentric;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Tetrahedra;
 use nephrite_formats::{Attribute, ScalarType};
@@ -354,15 +355,4 @@ fn cone_at(
     let positive = weights.map(|weight: f64| weight.max(0.0));
     let sum: f64 = positive.iter().sum();
     Some((corners, positive.map(|weight| weight / sum)))
-}
-
-/// Barycentric coordinates of a point in a tetrahedron; `None` for one without volume.
-pub(crate) fn barycentric(point: Vector, [a, b, c, d]: [Vector; 4]) -> Option<[f64; 4]> {
-    let (b, c, d, p) = (sub(b, a), sub(c, a), sub(d, a), sub(point, a));
-    let volume = dot(b, cross(c, d));
-    if volume == 0.0 {
-        return None;
-    }
-    let [u, v, w] = [dot(p, cross(c, d)), dot(p, cross(d, b)), dot(p, cross(b, c))].map(|part| part / volume);
-    Some([1.0 - u - v - w, u, v, w])
 }

@@ -3,6 +3,7 @@
 //! Nothing in a file says that tetrahedra fill space once. The test against flipping is a topological one only where they do: where
 //! the *link* of a vertex, the faces opposite to it, is a sphere, or a disk for a vertex of the boundary.
 
+use crate::flat::{DisjointSets, NO_INDEX};
 use crate::mesh::{FACES, Tetrahedra};
 
 /// Vertices whose link is neither a sphere nor a disk, or at a face that does not part two tetrahedra. `rims` has the edges opposite to
@@ -10,7 +11,7 @@ use crate::mesh::{FACES, Tetrahedra};
 pub(super) fn irregular(mesh: &Tetrahedra, rims: &[Vec<[u32; 2]>]) -> Vec<u32> {
     let mut found = mesh.misfits().as_flattened().to_vec();
     let mut link = vec![];
-    let mut met = vec![u32::MAX; mesh.n_vertices()];
+    let mut met = vec![NO_INDEX; mesh.n_vertices()];
     for (v, rim) in (0..).zip(rims) {
         link.clear();
         for &slot in mesh.slots_at(v) {
@@ -39,26 +40,15 @@ pub(super) fn is_simple(n_vertices: usize, n_triangles: usize, n_rim: usize) -> 
 
 /// Whether one comes from every triangle to every other over edges. O(n log n).
 fn is_one_piece(triangles: &[[u32; 3]]) -> bool {
-    let sides = |(at, &[a, b, c]): (usize, &[u32; 3])| {
+    let sides = |(at, &[a, b, c]): (u32, &[u32; 3])| {
         [[a, b], [b, c], [a, c]].map(|[p, q]| ([p.min(q), p.max(q)], at))
     };
-    let mut sides: Vec<([u32; 2], usize)> = triangles.iter().enumerate().flat_map(sides).collect();
+    let mut sides: Vec<([u32; 2], u32)> = (0..).zip(triangles).flat_map(sides).collect();
     sides.sort_unstable();
-    let mut roots: Vec<usize> = (0..triangles.len()).collect();
+    let mut pieces = DisjointSets::new(triangles.len());
     let mut n_pieces = triangles.len();
-    let find = |roots: &mut [usize], mut at: usize| {
-        while roots[at] != at {
-            roots[at] = roots[roots[at]];
-            at = roots[at];
-        }
-        at
-    };
     for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-        let [a, b] = [pair[0].1, pair[1].1].map(|at| find(&mut roots, at));
-        if a != b {
-            roots[a] = b;
-            n_pieces -= 1;
-        }
+        n_pieces -= usize::from(pieces.join(pair[0].1, pair[1].1));
     }
     n_pieces <= 1
 }

@@ -32,6 +32,5 @@ mod run;
 mod state;
 mod unit;
 
-pub(crate) use fields::barycentric;
 pub use options::FusionOptions;
 pub(crate) use run::run;

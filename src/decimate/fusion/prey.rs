@@ -1,15 +1,14 @@
 //! What is fused: the four vertices of a tetrahedron, or the two of an edge where no tetrahedron can be fused any more.
 
+use crate::flat::NO_INDEX;
+
 /// Vertices that are to become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Prey {
-    /// Padded with [`NO_VERTEX`].
+    /// Padded with [`NO_INDEX`].
     vertices: [u32; 4],
     len: usize,
 }
-
-/// No vertex has this number.
-const NO_VERTEX: u32 = u32::MAX;
 
 impl Prey {
     pub(super) fn tetrahedron(vertices: [u32; 4]) -> Self {
@@ -17,7 +16,7 @@ impl Prey {
     }
 
     pub(super) fn edge([a, b]: [u32; 2]) -> Self {
-        Self { vertices: [a, b, NO_VERTEX, NO_VERTEX], len: 2 }
+        Self { vertices: [a, b, NO_INDEX, NO_INDEX], len: 2 }
     }
 
     #[inline(always)]

@@ -7,27 +7,28 @@
 //! numbers, the lowest foremost. Flat parts have nothing but equal errors, and vertices of near numbers are neighbours there; one
 //! after the other they would go into one vertex, whose star grows, and whose triangles reach ever farther over the part.
 
+use crate::flat::NO_INDEX;
+
 /// A priority queue of vertices, the least error first.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
     /// Error bits above, those of the vertex below in reverse; children of `i` are `4 i + 1 ..= 4 i + 4`.
     heap: Vec<u64>,
-    /// Where each vertex is in the heap, or [`ABSENT`].
+    /// Where each vertex is in the heap, or [`NO_INDEX`].
     places: Vec<u32>,
 }
 
-const ABSENT: u32 = u32::MAX;
 const CHILDREN: usize = 4;
 
 impl Queue {
     /// An empty queue for vertices below `n_vertices`.
     pub fn new(n_vertices: usize) -> Self {
-        Self { heap: Vec::with_capacity(n_vertices), places: vec![ABSENT; n_vertices] }
+        Self { heap: Vec::with_capacity(n_vertices), places: vec![NO_INDEX; n_vertices] }
     }
 
     /// Makes room for one more vertex.
     pub fn add_vertex(&mut self) {
-        self.places.push(ABSENT);
+        self.places.push(NO_INDEX);
     }
 
     /// How many vertices are queued.
@@ -43,7 +44,7 @@ impl Queue {
     /// Whether `vertex` is queued.
     #[inline]
     pub fn contains(&self, vertex: u32) -> bool {
-        self.places[vertex as usize] != ABSENT
+        self.places[vertex as usize] != NO_INDEX
     }
 
     /// The least error in the queue.
@@ -55,7 +56,7 @@ impl Queue {
     pub fn set(&mut self, vertex: u32, error: f64) {
         let entry = pack(vertex, error);
         let place = self.places[vertex as usize];
-        if place == ABSENT {
+        if place == NO_INDEX {
             self.heap.push(entry);
             self.rise(self.heap.len() - 1, entry);
         } else {
@@ -78,8 +79,8 @@ impl Queue {
 
     /// Takes `vertex` out, wherever it is; nothing happens if it is not queued. O(log n).
     pub fn delete(&mut self, vertex: u32) {
-        let place = std::mem::replace(&mut self.places[vertex as usize], ABSENT);
-        if place == ABSENT {
+        let place = std::mem::replace(&mut self.places[vertex as usize], NO_INDEX);
+        if place == NO_INDEX {
             return;
         }
         let place = place as usize;

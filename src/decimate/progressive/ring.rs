@@ -4,11 +4,12 @@
 //! of several fans, with edges of three faces or with neighbours that disagree about the orientation, is sorted instead.
 
 use super::complex::Complex;
+use crate::flat::{NO_INDEX, to_index};
 use crate::geometry::vector::Vector;
 use crate::mesh::facing_edge;
 
 /// Stars of at most this many triangles are chained by trial.
-const FEW: usize = 24;
+const MAX_CHAINED_VALENCE: usize = 24;
 
 /// How the triangles at a vertex hang together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,7 +63,7 @@ impl Ring {
         }));
         self.shape = if self.spokes.is_empty() {
             Shape::Empty
-        } else if self.spokes.len() <= FEW && self.chain() {
+        } else if self.spokes.len() <= MAX_CHAINED_VALENCE && self.chain() {
             self.take_chain()
         } else {
             self.sort_into_fans()
@@ -161,7 +162,7 @@ impl Ring {
                 if is_taken[first] || (want_end && end.is_none()) {
                     continue;
                 }
-                self.fan_starts.push(index(self.slots.len()));
+                self.fan_starts.push(to_index(self.slots.len()));
                 // Enter by the open side, or in the triangle's own orientation.
                 last_end = Some(self.walk(&links, (first, end.unwrap_or(0)), &mut is_taken));
             }
@@ -204,13 +205,11 @@ impl Ring {
 
 /// Which triangle of a star lies across each of its spokes.
 struct Links {
-    /// Two per triangle, `2 * triangle + side`: the other triangle and its side, or [`NO_LINK`].
+    /// Two per triangle, `2 * triangle + side`: the other triangle and its side, or [`NO_INDEX`].
     across: Vec<u32>,
     /// Whether some spoke has more than two triangles.
     is_crowded: bool,
 }
-
-const NO_LINK: u32 = u32::MAX;
 
 impl Links {
     fn new(spokes: &[Spoke]) -> Self {
@@ -220,7 +219,7 @@ impl Links {
             .flat_map(|(spoke, at)| [(spoke.from, 2 * at), (spoke.to, 2 * at + 1)])
             .collect();
         ends.sort_unstable();
-        let mut across = vec![NO_LINK; ends.len()];
+        let mut across = vec![NO_INDEX; ends.len()];
         let mut is_crowded = false;
         for shared in ends.chunk_by(|a, b| a.0 == b.0) {
             if let [(_, a), (_, b)] = *shared {
@@ -234,13 +233,8 @@ impl Links {
 
     fn across(&self, triangle: usize, side: usize) -> Option<(usize, usize)> {
         let link = self.across[2 * triangle + side];
-        (link != NO_LINK).then_some(((link / 2) as usize, (link % 2) as usize))
+        (link != NO_INDEX).then_some(((link / 2) as usize, (link % 2) as usize))
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "slots are u32")]
-fn index(at: usize) -> u32 {
-    at as u32
 }
 
 #[cfg(test)]

@@ -3,11 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::{Drilling, PITCH, lattice};
+use crate::flat::NO_INDEX;
 
 /// Largest radius of the rings around a hole: they end inside the square.
 const OUTERMOST_RADIUS: f64 = 4.5;
-/// A lattice point inside a square, where no vertex is.
-const NONE: u32 = u32::MAX;
 
 /// Vertices of a face and their positions: first those on the borders of squares, then those
 /// inside, square by square.
@@ -30,7 +29,7 @@ impl Face {
         for y in 0..=rows * pieces {
             for x in 0..=columns * pieces {
                 let is_border = x.is_multiple_of(pieces) || y.is_multiple_of(pieces);
-                let vertex = if is_border { face.n_vertices() } else { NONE };
+                let vertex = if is_border { face.n_vertices() } else { NO_INDEX };
                 face.lattice.push(vertex);
                 if is_border {
                     face.points.push([x, y].map(|at| f64::from(at) * PITCH / f64::from(pieces)));
