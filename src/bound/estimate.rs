@@ -2,14 +2,15 @@
 //! e_g3, the larger of both.
 
 use super::accumulated::{Accumulated, Sampler};
+use super::limits::{Errors, Limits};
 use super::removed::{RemovedVertices, nearest};
-use super::{Errors, Limits, Replacement};
+use super::replacement::Replacement;
 use crate::geometry::distance::point_segment_distance_sq;
 use crate::mesh::{Filling, Hole, Renumbering, Surface};
 
 /// Which estimate decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum EstimateKind {
     /// e_g1.
     Accumulated,
     /// e_g2.
@@ -28,7 +29,7 @@ pub struct Estimate {
 
 /// What a replacement changes.
 #[derive(Clone, Debug)]
-pub struct Change {
+pub struct EstimateChange {
     /// e_g1 of the filling's triangles.
     accumulated: Vec<f64>,
     /// Removed vertices and the index of the filling's triangle that each goes to.
@@ -37,12 +38,12 @@ pub struct Change {
 
 impl Estimate {
     /// The estimate at the start, when `surface` is the input.
-    pub fn new(kind: Kind, surface: &Surface) -> Self {
+    pub fn new(kind: EstimateKind, surface: &Surface) -> Self {
         let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
         Self {
             sampler: Sampler::new(surface),
-            accumulated: (kind != Kind::Removed).then(|| Accumulated::new(n_slots)),
-            removed: (kind != Kind::Accumulated).then(|| RemovedVertices::new(n_slots, n_vertices)),
+            accumulated: (kind != EstimateKind::Removed).then(|| Accumulated::new(n_slots)),
+            removed: (kind != EstimateKind::Accumulated).then(|| RemovedVertices::new(n_slots, n_vertices)),
         }
     }
 
@@ -87,13 +88,13 @@ impl Estimate {
     }
 
     /// What the replacement changes in the estimates.
-    pub fn change(&self, replacement: Replacement<'_>) -> Change {
+    pub fn change(&self, replacement: Replacement<'_>) -> EstimateChange {
         let Replacement { surface, hole, filling } = replacement;
         let accumulated =
             (0..filling.triangles.len()).map(|i| self.accumulated_error(hole, filling, i)).collect();
         let vertices = self.removed.iter().flat_map(|removed| removed.of_hole(hole));
         let assignments = vertices.map(|v| (v, nearest(hole, filling, surface.point(v)).0)).collect();
-        Change { accumulated, assignments }
+        EstimateChange { accumulated, assignments }
     }
 
     /// Gives every slot its new number.
@@ -107,7 +108,7 @@ impl Estimate {
     }
 
     /// Carries the estimates over to the filling.
-    pub fn apply(&mut self, hole: &Hole, change: &Change) {
+    pub fn apply(&mut self, hole: &Hole, change: &EstimateChange) {
         if let Some(accumulated) = &mut self.accumulated {
             hole.slots
                 .iter()

@@ -3,11 +3,16 @@
 pub mod accumulated;
 pub mod certified;
 pub mod estimate;
+mod limits;
 pub mod removed;
+mod replacement;
 
-use crate::mesh::{Filling, Hole, Renumbering, Surface, TooMany};
-use certified::{Certified, Transfer};
-use estimate::{Estimate, Kind};
+pub use limits::{Errors, Limits};
+pub use replacement::Replacement;
+
+use crate::mesh::{Hole, Renumbering, Surface, TooMany};
+use certified::{Certified, MapChange, Transfer};
+use estimate::{Estimate, EstimateChange, EstimateKind};
 use serde::{Deserialize, Serialize};
 
 /// What the error of a level means.
@@ -25,20 +30,9 @@ pub enum Bound {
     Accumulated,
 }
 
-/// How many times the limit an error is followed up: what a removal needs is then known well enough for the limits to come, and
-/// farther off it does not matter yet.
+/// An error is followed up to so many times its limit: what a removal needs is then known well
+/// enough for the limits to come, and farther off it does not matter yet.
 pub const REACH: f64 = 2.0;
-
-/// A star about to be replaced by a filling.
-#[derive(Clone, Copy, Debug)]
-pub struct Replacement<'a> {
-    /// The mesh before it.
-    pub surface: &'a Surface,
-    /// The star.
-    pub hole: &'a Hole,
-    /// What closes it; its triangles go into the first slots of the star.
-    pub filling: &'a Filling,
-}
 
 /// The error of the current mesh, in one meaning or the other.
 #[derive(Clone, Debug)]
@@ -53,9 +47,9 @@ pub enum GlobalError {
 #[derive(Clone, Debug)]
 pub enum Change {
     /// In the map of the proof.
-    Certified(certified::Change),
+    Certified(MapChange),
     /// In the estimates.
-    Estimate(estimate::Change),
+    Estimate(EstimateChange),
 }
 
 impl GlobalError {
@@ -65,14 +59,14 @@ impl GlobalError {
         let estimate = |kind| Self::Estimate(Estimate::new(kind, surface));
         match bound {
             Bound::Certified => Self::Certified(Certified::new(surface, rounding)),
-            Bound::Joint => estimate(Kind::Joint),
-            Bound::Removed => estimate(Kind::Removed),
-            Bound::Accumulated => estimate(Kind::Accumulated),
+            Bound::Joint => estimate(EstimateKind::Joint),
+            Bound::Removed => estimate(EstimateKind::Removed),
+            Bound::Accumulated => estimate(EstimateKind::Accumulated),
         }
     }
 
-    /// What the replacement changes, found without changing it, and its errors; where they are above the limits only the errors,
-    /// or lower bounds of them above the limits.
+    /// The errors of a replacement and what it changes, without changing it. If the errors are above
+    /// the limits, only the errors, or lower bounds of them above the limits.
     pub fn change(
         &self,
         replacement: Replacement<'_>,
@@ -127,8 +121,9 @@ impl GlobalError {
         }
     }
 
-    /// Applies what was found for the replacement of the star of each hole, one after another. No two change the same star, nor move the
-    /// same source edge; there must be [room](Self::check_room) for them.
+    /// Applies what was found for the replacement of the star of each hole, one after another. No
+    /// two change the same star or move the same source edge, and there is
+    /// [room](Self::check_room) for them.
     pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone + Send) {
         match self {
             Self::Certified(certified) => certified.apply_all(of_map(changes)),
@@ -157,44 +152,9 @@ impl Change {
 /// The changes in the map of the proof.
 fn of_map<'a>(
     changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone,
-) -> impl Iterator<Item = (&'a Hole, &'a certified::Change)> + Clone {
+) -> impl Iterator<Item = (&'a Hole, &'a MapChange)> + Clone {
     changes.filter_map(|(hole, change)| match change {
         Change::Certified(change) => Some((hole, change)),
         Change::Estimate(_) => None,
     })
-}
-
-/// The largest local and global error that a removal may make now.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Limit on the error between the star and its filling.
-    pub local: f64,
-    /// Limit on the error between the input and the filling.
-    pub global: f64,
-}
-
-impl Limits {
-    /// No limit.
-    pub const NONE: Self = Self { local: f64::INFINITY, global: f64::INFINITY };
-
-    /// Both limits times a factor.
-    fn scaled(self, factor: f64) -> Self {
-        Self { local: self.local * factor, global: self.global * factor }
-    }
-}
-
-/// Errors that a removal would make, or lower bounds of them once one is above its limit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Errors {
-    /// Error between the star and its filling.
-    pub local: f64,
-    /// Error between the input and the filling.
-    pub global: f64,
-}
-
-impl Errors {
-    /// Whether both errors are within their limits.
-    pub fn within(self, limits: Limits) -> bool {
-        self.local <= limits.local && self.global <= limits.global
-    }
 }

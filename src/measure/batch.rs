@@ -1,6 +1,6 @@
 //! The samples of one tile, compared with a triangle all at once.
 
-use super::search::Found;
+use super::found::Found;
 use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::{PreparedTriangle, larger, smaller};

@@ -53,7 +53,7 @@ pub(super) enum Child {
 
 /// A triangle on its way into a leaf.
 #[derive(Clone, Copy)]
-struct Primitive {
+struct BoxedTriangle {
     bounds: Bounds,
     id: u32,
 }
@@ -128,15 +128,15 @@ impl Node {
 ///
 /// `O(n log n)` for any mesh that is not an exponential spiral; each level is built in parallel.
 pub(super) fn build(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
-    let mut primitives: Vec<Primitive> = triangles
+    let mut primitives: Vec<BoxedTriangle> = triangles
         .par_iter()
         .zip(0..u32::MAX)
-        .map(|(triangle, id)| Primitive { bounds: Bounds::around(*triangle), id })
+        .map(|(triangle, id)| BoxedTriangle { bounds: Bounds::around(*triangle), id })
         .collect();
     let mut nodes = Vec::new();
-    let mut pending: Vec<(u32, &mut [Primitive])> = vec![(0, &mut primitives)];
+    let mut pending: Vec<(u32, &mut [BoxedTriangle])> = vec![(0, &mut primitives)];
     while !pending.is_empty() {
-        let level: Vec<(Node, Vec<Part<'_>>)> =
+        let level: Vec<(Node, Vec<SubRange<'_>>)> =
             pending.into_par_iter().with_min_len(16).map(|(first, slice)| build_node(first, slice)).collect();
         let n_built = nodes.len() + level.len();
         pending = Vec::new();
@@ -152,15 +152,15 @@ pub(super) fn build(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
 }
 
 /// A child node that is still to be built.
-struct Part<'a> {
+struct SubRange<'a> {
     lane: usize,
     first: u32,
-    primitives: &'a mut [Primitive],
+    primitives: &'a mut [BoxedTriangle],
 }
 
 /// Splits the triangles from `first` on in four, as evenly as their areas allow. Returns the node
 /// with its leaves complete, and the parts whose nodes must still be built.
-fn build_node(first: u32, primitives: &mut [Primitive]) -> (Node, Vec<Part<'_>>) {
+fn build_node(first: u32, primitives: &mut [BoxedTriangle]) -> (Node, Vec<SubRange<'_>>) {
     let mut node = Node::EMPTY;
     let mut parts = Vec::with_capacity(LANES);
     let mut first = first;
@@ -181,7 +181,7 @@ fn build_node(first: u32, primitives: &mut [Primitive]) -> (Node, Vec<Part<'_>>)
         if primitives.len() <= LEAF_LEN {
             (node.first[lane], node.n_triangles[lane]) = (first, n);
         } else {
-            parts.push(Part { lane, first, primitives });
+            parts.push(SubRange { lane, first, primitives });
         }
         first += n;
         lane += 1;
@@ -191,7 +191,7 @@ fn build_node(first: u32, primitives: &mut [Primitive]) -> (Node, Vec<Part<'_>>)
 
 /// Reorders the triangles and cuts them in two where the surface area heuristic is least. A range
 /// that fits a leaf stays whole, with nothing on the right.
-fn split(primitives: &mut [Primitive]) -> (&mut [Primitive], &mut [Primitive]) {
+fn split(primitives: &mut [BoxedTriangle]) -> (&mut [BoxedTriangle], &mut [BoxedTriangle]) {
     if primitives.len() <= LEAF_LEN {
         return (primitives, &mut []);
     }
@@ -205,7 +205,7 @@ fn split(primitives: &mut [Primitive]) -> (&mut [Primitive], &mut [Primitive]) {
     if extent[axis] <= 0.0 {
         return primitives.split_at_mut(middle);
     }
-    let bin_of = |primitive: &Primitive| {
+    let bin_of = |primitive: &BoxedTriangle| {
         let offset = primitive.bounds.low[axis] + primitive.bounds.high[axis] - centres.low[axis];
         truncate(offset / extent[axis] * N_BINS as f64).min(N_BINS - 1)
     };
@@ -218,7 +218,7 @@ fn split(primitives: &mut [Primitive]) -> (&mut [Primitive], &mut [Primitive]) {
 }
 
 /// The bin, from 1 on, before which a cut gives the least sum of area times count.
-fn cheapest_cut(primitives: &[Primitive], bin_of: impl Fn(&Primitive) -> usize) -> usize {
+fn cheapest_cut(primitives: &[BoxedTriangle], bin_of: impl Fn(&BoxedTriangle) -> usize) -> usize {
     let mut bins = [(Bounds::EMPTY, 0usize); N_BINS];
     for primitive in primitives {
         let (bounds, count) = &mut bins[bin_of(primitive)];
@@ -242,7 +242,7 @@ fn cheapest_cut(primitives: &[Primitive], bin_of: impl Fn(&Primitive) -> usize) 
 }
 
 /// Moves the elements that satisfy `is_left` to the front and returns their number.
-fn partition(primitives: &mut [Primitive], is_left: impl Fn(&Primitive) -> bool) -> usize {
+fn partition(primitives: &mut [BoxedTriangle], is_left: impl Fn(&BoxedTriangle) -> bool) -> usize {
     let mut n_left = 0;
     for i in 0..primitives.len() {
         if is_left(&primitives[i]) {

@@ -14,6 +14,7 @@ mod batch;
 mod bvh;
 mod error;
 mod fields;
+mod found;
 mod histogram;
 mod locator;
 mod pair;
@@ -34,7 +35,7 @@ pub(crate) use self::pieces::bound_of_pieces;
 use self::prove::{Bracket, Goal, Parts};
 pub use self::report::{Distance, MeasureOptions, OneSided, Verdict};
 use self::samples::Samples;
-use self::surface::{Frame, Surface};
+use self::surface::{Frame, MeasuredSurface};
 use crate::TriangleMesh;
 use crate::geometry::vector::{self, Vector};
 
@@ -155,7 +156,7 @@ pub fn check_within(
 /// [`MeasureError`], as for [`measure`], where `other` takes the place of the reference.
 pub fn vertex_distances(mesh: &TriangleMesh, other: &TriangleMesh) -> Result<Vec<f64>, MeasureError> {
     let frame = Frame::new(other)?;
-    let target = Surface::new(other, &frame, Side::Reference)?.tree;
+    let target = MeasuredSurface::new(other, &frame, Side::Reference)?.tree;
     let offset = frame.offset(mesh);
     let points: Vec<Vector> =
         mesh.positions.iter().map(|&position| vector::add(vector::widen(position), offset)).collect();
@@ -174,7 +175,7 @@ pub fn sample_distances(
     n_samples: usize,
 ) -> Result<Vec<f64>, MeasureError> {
     let frame = Frame::new(other)?;
-    let source = Surface::new(mesh, &frame, Side::Mesh)?;
-    let target = Surface::new(other, &frame, Side::Reference)?;
+    let source = MeasuredSurface::new(mesh, &frame, Side::Mesh)?;
+    let target = MeasuredSurface::new(other, &frame, Side::Reference)?;
     Ok(sweep::face_distances(&Samples::new(source.tree.triangles(), n_samples, 0.0), &target.tree))
 }

@@ -4,9 +4,9 @@ use super::error::{MeasureError, Side};
 use super::prove::{self, Bracket, Goal, Parts};
 use super::report::{MeasureOptions, OneSided};
 use super::samples::Samples;
-use super::search::Tree;
-use super::surface::{Frame, Surface};
-use super::sweep::{self, Tally};
+use super::search::TriangleTree;
+use super::surface::{Frame, MeasuredSurface};
+use super::sweep::{self, SampleSums};
 use crate::TriangleMesh;
 use crate::geometry::distance::Segment;
 
@@ -19,7 +19,7 @@ pub(super) const SLACK: f64 = 1.0 / (1u64 << 42) as f64;
 pub(super) struct Pair {
     /// Where both are measured.
     pub(super) frame: Frame,
-    surfaces: [Surface; 2],
+    surfaces: [MeasuredSurface; 2],
     /// The uncertainty of distances.
     pub(super) uncertainty: Uncertainty,
 }
@@ -33,8 +33,8 @@ impl Pair {
     pub(super) fn new(reference: &TriangleMesh, mesh: &TriangleMesh) -> Result<Self, MeasureError> {
         let frame = Frame::new(reference)?;
         let (first, second) = rayon::join(
-            || Surface::new(reference, &frame, Side::Reference),
-            || Surface::new(mesh, &frame, Side::Mesh),
+            || MeasuredSurface::new(reference, &frame, Side::Reference),
+            || MeasuredSurface::new(mesh, &frame, Side::Mesh),
         );
         let surfaces = [first?, second?];
         let uncertainty = Uncertainty {
@@ -45,7 +45,7 @@ impl Pair {
     }
 
     /// From the reference to the mesh, and back.
-    pub(super) fn directions(&self) -> [(&Surface, &Tree); 2] {
+    pub(super) fn directions(&self) -> [(&MeasuredSurface, &TriangleTree); 2] {
         let [reference, mesh] = &self.surfaces;
         [(reference, &mesh.tree), (mesh, &reference.tree)]
     }
@@ -73,8 +73,8 @@ impl Uncertainty {
 
 /// Measures from one surface to the other; `farthest` is given in the frame.
 pub(super) fn measure_one_sided(
-    source: &Surface,
-    target: &Tree,
+    source: &MeasuredSurface,
+    target: &TriangleTree,
     uncertainty: &Uncertainty,
     options: &MeasureOptions,
 ) -> OneSided {
@@ -99,7 +99,7 @@ pub(super) fn measure_one_sided(
 
 /// The numbers of one direction from the tallies of vertices, edges and faces and from the bracket.
 fn summarize(
-    [vertices, edges, faces]: [Tally; 3],
+    [vertices, edges, faces]: [SampleSums; 3],
     bracket: &Bracket,
     uncertainty: &Uncertainty,
     options: &MeasureOptions,
@@ -107,7 +107,7 @@ fn summarize(
     // Metro takes no more vertices than samples. Here all vertices count, with the total weight of
     // those that Metro would take.
     let vertex_weight = (options.n_samples as f64 / vertices.n as f64).min(1.0);
-    let weighted = |of: fn(&Tally) -> f64| vertex_weight * of(&vertices) + of(&edges) + of(&faces);
+    let weighted = |of: fn(&SampleSums) -> f64| vertex_weight * of(&vertices) + of(&edges) + of(&faces);
     let n = weighted(|tally| tally.n as f64);
     let own = [&faces, &edges].into_iter().find(|tally| tally.n > 0).unwrap_or(&vertices);
     let max = bracket.farthest.distance_sq.sqrt();

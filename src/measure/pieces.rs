@@ -1,7 +1,7 @@
 //! A proven upper bound on the distance of loose pieces from a surface.
 
 use super::prove::{self, Goal, Parts};
-use super::search::Tree;
+use super::search::TriangleTree;
 use super::{bvh, pair};
 use crate::geometry::distance::Triangle;
 
@@ -26,7 +26,7 @@ pub(crate) fn bound_of_pieces(pieces: &[Triangle], surface: &[Triangle]) -> f64 
         return f64::INFINITY;
     }
     let (nodes, order) = bvh::build(surface);
-    let tree = Tree::new(nodes, order.iter().map(|&t| surface[t as usize]).collect());
+    let tree = TriangleTree::new(nodes, order.iter().map(|&t| surface[t as usize]).collect());
     let coordinates = pieces.iter().chain(surface).flatten().flatten();
     let slack = pair::SLACK * coordinates.fold(0.0, |largest: f64, coordinate| largest.max(coordinate.abs()));
     let goal = Goal::Tolerance { tolerance: TOLERANCE, floor: 4.0 * slack };

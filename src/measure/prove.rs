@@ -20,9 +20,9 @@
 use rayon::prelude::*;
 
 use super::batch::Quarter;
+use super::found::{Farthest, Found};
 use super::polygon::Polygon;
-use super::search::{Found, Stack, Tree};
-use super::sweep::Farthest;
+use super::search::{Stack, TriangleTree};
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::Vector;
 
@@ -110,7 +110,7 @@ impl Goal {
 /// Cuts the open pieces of a surface until the goal is reached or `max_pieces` have been bounded.
 pub(super) fn refine(
     Parts { mut cover, mut n_pieces, mut farthest }: Parts,
-    target: &Tree,
+    target: &TriangleTree,
     goal: Goal,
     max_pieces: usize,
 ) -> Bracket {
@@ -184,7 +184,7 @@ pub(super) struct Parts {
 impl Parts {
     /// Whole triangles of the source, which may be segments and points, each with the triangle of
     /// the target that bounds it best.
-    pub(super) fn whole(triangles: &[Triangle], target: &Tree) -> Self {
+    pub(super) fn whole(triangles: &[Triangle], target: &TriangleTree) -> Self {
         let look = |stack: &mut Stack, triangle: &Triangle| {
             let bound = target.search(triangle, 0, stack);
             let farthest = triangle.iter().fold(Farthest::default(), |farthest, &point| {
@@ -209,7 +209,7 @@ impl Parts {
 
 /// Cuts pieces one after the other.
 pub(super) struct Cutter<'a> {
-    target: &'a Tree,
+    target: &'a TriangleTree,
     settled_sq: f64,
     stack: Stack,
     parts: Parts,
@@ -217,7 +217,7 @@ pub(super) struct Cutter<'a> {
 
 impl<'a> Cutter<'a> {
     /// Cuts what is not within a bound.
-    pub(super) fn new(target: &'a Tree, settled_sq: f64) -> Self {
+    pub(super) fn new(target: &'a TriangleTree, settled_sq: f64) -> Self {
         Self { target, settled_sq, stack: Stack::default(), parts: Parts::default() }
     }
 

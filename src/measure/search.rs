@@ -10,6 +10,7 @@ use multiversion::multiversion;
 
 use super::batch::Batch;
 use super::bvh::{Child, LANES, Node};
+use super::found::Found;
 use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::prepared::{PreparedTriangle, larger};
@@ -19,26 +20,12 @@ use crate::geometry::vector::Vector;
 const FRONT_LEN: usize = 16;
 
 /// Triangles under a hierarchy.
-pub(super) struct Tree {
+pub(super) struct TriangleTree {
     nodes: Vec<Node>,
     /// In the order of the leaves.
     triangles: Vec<Triangle>,
     /// The same, prepared.
     prepared: Vec<PreparedTriangle>,
-}
-
-/// The answer to a search.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found {
-    /// The least value, over all triangles, of the largest squared distance from a corner.
-    pub(super) distance_sq: f64,
-    /// A triangle with that value.
-    pub(super) triangle: u32,
-}
-
-impl Found {
-    /// Larger than any answer.
-    pub(super) const NOTHING: Self = Self { distance_sq: f64::INFINITY, triangle: 0 };
 }
 
 /// Subtrees that together hold every triangle that can be nearest to some point of a region, as
@@ -55,7 +42,7 @@ pub(super) struct Stack {
     nodes: Vec<(f64, u32)>,
 }
 
-impl Tree {
+impl TriangleTree {
     /// Takes triangles in the order of the leaves of the nodes.
     pub(super) fn new(nodes: Vec<Node>, triangles: Vec<Triangle>) -> Self {
         let prepared = triangles.iter().map(PreparedTriangle::new).collect();
@@ -166,10 +153,16 @@ impl Tree {
     }
 }
 
-/// [`Tree::search_batch`], also compiled for wider vectors, which are used if the machine has them.
+/// [`TriangleTree::search_batch`], also compiled for wider vectors, which are used if the machine has them.
 /// The operations and their order are the same, hence the bits too; the time is two thirds.
 #[multiversion(targets("x86_64+avx2"))]
-fn search_batch(tree: &Tree, batch: &mut Batch, front: &Front, hint: u32, stack: &mut Vec<(f64, u32)>) {
+fn search_batch(
+    tree: &TriangleTree,
+    batch: &mut Batch,
+    front: &Front,
+    hint: u32,
+    stack: &mut Vec<(f64, u32)>,
+) {
     batch.improve(&tree.prepared[hint as usize], hint);
     let region = *batch.region();
     stack.clear();
@@ -232,9 +225,9 @@ mod tests {
     use crate::geometry::vector;
     use crate::measure::bvh;
 
-    fn tree(triangles: &[Triangle]) -> Tree {
+    fn tree(triangles: &[Triangle]) -> TriangleTree {
         let (nodes, order) = bvh::build(triangles);
-        Tree::new(nodes, order.iter().map(|&t| triangles[t as usize]).collect())
+        TriangleTree::new(nodes, order.iter().map(|&t| triangles[t as usize]).collect())
     }
 
     fn brute_force(triangles: &[Triangle], corners: &[Vector]) -> f64 {

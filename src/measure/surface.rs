@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::bvh;
 use super::error::{MeasureError, Side};
-use super::search::Tree;
+use super::search::TriangleTree;
 use crate::TriangleMesh;
 use crate::flat::NO_INDEX;
 use crate::geometry::bounds::Bounds;
@@ -24,9 +24,9 @@ use crate::mesh::{TooMany, check_counts};
 const MAX_COORDINATE: f64 = 1e40;
 
 /// The surface of one mesh.
-pub(super) struct Surface {
+pub(super) struct MeasuredSurface {
     /// The triangles' corners and the hierarchy over them.
-    pub(super) tree: Tree,
+    pub(super) tree: TriangleTree,
     /// Positions of the vertices that a triangle uses.
     pub(super) vertices: Vec<Vector>,
     /// Every edge once, lower vertex first, as indices into `vertices`.
@@ -80,7 +80,7 @@ impl Frame {
     }
 }
 
-impl Surface {
+impl MeasuredSurface {
     /// Places a mesh in the frame and builds its hierarchy.
     ///
     /// # Errors
@@ -106,7 +106,7 @@ impl Surface {
         let triangles: Vec<Triangle> = order.iter().map(|&t| unordered[t as usize]).collect();
         let corners = order.iter().map(|&t| mesh.triangles[t as usize]);
         let (tree, (vertices, edges)) = rayon::join(
-            || Tree::new(nodes, triangles),
+            || TriangleTree::new(nodes, triangles),
             || {
                 let (vertex_ids, triangle_vertices) = number_by_use(corners, mesh.positions.len());
                 let vertices: Vec<Vector> = vertex_ids.iter().map(|&v| place(v)).collect();

@@ -11,9 +11,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::batch::Batch;
+use super::found::Farthest;
 use super::prove::{Cutter, Parts};
 use super::samples::{Element, Samples, Tile};
-use super::search::{Front, Stack, Tree};
+use super::search::{Front, Stack, TriangleTree};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::distance::{Segment, Triangle};
 use crate::geometry::vector::{self, Vector};
@@ -26,7 +27,7 @@ const TILES_PER_CHUNK: u64 = 64;
 
 /// Sums over the distances of samples.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct SampleSums {
     /// How many samples.
     pub(super) n: usize,
     /// Sum of their distances.
@@ -37,23 +38,7 @@ pub(super) struct Tally {
     pub(super) farthest: Farthest,
 }
 
-/// A point of one surface with its distance from the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Farthest {
-    /// Squared distance.
-    pub(super) distance_sq: f64,
-    /// The point.
-    pub(super) point: Vector,
-}
-
-impl Farthest {
-    /// The farther of the two; this one if they are equally far.
-    pub(super) fn or(self, other: Self) -> Self {
-        if other.distance_sq > self.distance_sq { other } else { self }
-    }
-}
-
-impl Tally {
+impl SampleSums {
     fn count(&mut self, point: Vector, distance_sq: f64) {
         self.n += 1;
         self.sum += distance_sq.sqrt();
@@ -73,7 +58,7 @@ impl Tally {
 
 /// Distances of points from a surface; NaN for a point that is not finite. Neighbours in the slice
 /// should be neighbours in space.
-pub(super) fn point_distances(points: &[Vector], target: &Tree) -> Vec<f64> {
+pub(super) fn point_distances(points: &[Vector], target: &TriangleTree) -> Vec<f64> {
     let mut distances = vec![0.0; points.len()];
     let chunks = distances.par_chunks_mut(VERTICES_PER_CHUNK).zip(points.par_chunks(VERTICES_PER_CHUNK));
     chunks.for_each_init(Stack::default, |stack, (distances, points)| {
@@ -92,8 +77,8 @@ pub(super) fn point_distances(points: &[Vector], target: &Tree) -> Vec<f64> {
 }
 
 /// The tally of points with known distances.
-pub(super) fn tally_points(points: &[Vector], distances: &[f64]) -> Tally {
-    let mut tally = Tally::default();
+pub(super) fn tally_points(points: &[Vector], distances: &[f64]) -> SampleSums {
+    let mut tally = SampleSums::default();
     for (&point, &distance) in points.iter().zip(distances) {
         tally.count(point, distance * distance);
     }
@@ -101,23 +86,27 @@ pub(super) fn tally_points(points: &[Vector], distances: &[f64]) -> Tally {
 }
 
 /// The tally of all samples on edges.
-pub(super) fn sweep_edges(samples: &Samples<'_, Segment>, target: &Tree) -> Tally {
+pub(super) fn sweep_edges(samples: &Samples<'_, Segment>, target: &TriangleTree) -> SampleSums {
     sweep(samples, target, |walk, tiles| {
-        let mut tally = Tally::default();
+        let mut tally = SampleSums::default();
         for tile in samples.tiles(tiles) {
             walk.visit(&tile, target, |point, distance_sq| tally.count(point, distance_sq));
         }
         tally
     })
     .into_iter()
-    .fold(Tally::default(), Tally::merge)
+    .fold(SampleSums::default(), SampleSums::merge)
 }
 
 /// The tally of all samples inside triangles, and the proven bound of all tiles: tiles above
 /// `settled_sq` stay open.
-pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settled_sq: f64) -> (Tally, Parts) {
+pub(super) fn sweep_faces(
+    samples: &Samples<'_, Triangle>,
+    target: &TriangleTree,
+    settled_sq: f64,
+) -> (SampleSums, Parts) {
     let chunks = sweep(samples, target, |walk, tiles| {
-        let mut tally = Tally::default();
+        let mut tally = SampleSums::default();
         let mut cutter = Cutter::new(target, settled_sq);
         for tile in samples.tiles(tiles) {
             walk.visit(&tile, target, |point, distance_sq| tally.count(point, distance_sq));
@@ -125,7 +114,7 @@ pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settle
         }
         (tally, cutter.into_parts())
     });
-    let mut total = Tally::default();
+    let mut total = SampleSums::default();
     let mut all = Parts::default();
     for (tally, parts) in chunks {
         total = total.merge(tally);
@@ -135,7 +124,7 @@ pub(super) fn sweep_faces(samples: &Samples<'_, Triangle>, target: &Tree, settle
 }
 
 /// Distances of all samples inside triangles, in the order of the samples.
-pub(super) fn face_distances(samples: &Samples<'_, Triangle>, target: &Tree) -> Vec<f64> {
+pub(super) fn face_distances(samples: &Samples<'_, Triangle>, target: &TriangleTree) -> Vec<f64> {
     sweep(samples, target, |walk, tiles| {
         let mut distances = Vec::new();
         for tile in samples.tiles(tiles) {
@@ -150,7 +139,7 @@ pub(super) fn face_distances(samples: &Samples<'_, Triangle>, target: &Tree) -> 
 /// tiles.
 fn sweep<E: Element, T: Send>(
     samples: &Samples<'_, E>,
-    target: &Tree,
+    target: &TriangleTree,
     visit: impl Fn(&mut Walk, Range<u64>) -> T + Sync,
 ) -> Vec<T> {
     let n_tiles = samples.n_tiles();
@@ -182,7 +171,7 @@ impl Walk {
     }
 
     /// Finds the nodes of the target that matter to a region.
-    fn enter(&mut self, region: &Bounds, target: &Tree) {
+    fn enter(&mut self, region: &Bounds, target: &TriangleTree) {
         let centre = vector::midpoint(region.low, region.high);
         let found = target.search(&[centre], 0, &mut self.stack);
         self.hint = found.triangle;
@@ -193,7 +182,12 @@ impl Walk {
 
     /// Passes the squared distance of each sample of a tile within the region to `count`, and
     /// leaves the bounds of the tile in the batch.
-    fn visit<E: Element>(&mut self, tile: &Tile<E>, target: &Tree, mut count: impl FnMut(Vector, f64)) {
+    fn visit<E: Element>(
+        &mut self,
+        tile: &Tile<E>,
+        target: &TriangleTree,
+        mut count: impl FnMut(Vector, f64),
+    ) {
         let mut points = tile.points().peekable();
         loop {
             self.batch.fill(tile.corners.corners(), &mut points);

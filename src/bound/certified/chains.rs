@@ -1,7 +1,22 @@
 //! Through which triangles of the current mesh the image of each source edge runs.
 //!
-//! A *chain* is a source edge cut into *portions*, each with the slot of the triangle that it is mapped into. Most edges
-//! need none: both ends belong to one triangle and so does all between. The others are written down here.
+//! A *chain* is a source edge cut into *portions*, each with the slot of the triangle that it is
+//! mapped into. Between two portions is a *crossing*, where the image passes over a mesh edge. Most
+//! edges need no chain: both ends belong to one triangle, and so does all between them. The others
+//! are written down here.
+//!
+//! ```text
+//!          source edge                              b-----------d
+//!                                                  / \         / \
+//!   low        p    q         high                /   \  s1   /   \
+//!    o---------x----x----------o                 / s0  \     /  s2 \
+//!    portion 0   1    portion 2                 / o-----p'--q'---o  \
+//!    slot s0    s1    slot s2                  /         \ /         \
+//!    end p      q     end 1                   a-----------c-----------e
+//!
+//! p, q     crossings: points of the source edge, stored as parts of it in `Portion::end`
+//! p', q'   their images: the point of the mesh edge b c nearest to p, and of c d nearest to q
+//! ```
 
 use super::records::{HEADER, Records};
 use crate::mesh::Renumbering;

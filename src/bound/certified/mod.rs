@@ -17,6 +17,7 @@
 //! hole's [`dual_tree`] has.
 
 pub mod chains;
+mod change;
 pub mod contents;
 pub mod dual_tree;
 pub mod images;
@@ -29,22 +30,23 @@ pub mod source;
 mod star;
 mod transfer;
 
-use super::Replacement;
+use super::replacement::Replacement;
 use crate::geometry::vector::{length, max, min, widen};
 use crate::mesh::{Hole, MAX_VALENCE, Renumbering, Surface, TooMany, check_places};
 use chains::Chains;
+use change::Assignment;
+pub use change::MapChange;
 use contents::Contents;
 use source::SourceEdges;
 use std::collections::HashMap;
-use transfer::Assignment;
-pub use transfer::{Change, Transfer};
+pub use transfer::Transfer;
 
-/// How many times the limit a displacement is followed up. The filling was chosen to be within the limit, so that little is
-/// learned from going on for long.
+/// A displacement is followed up to so many times its limit. The filling was chosen to be within the
+/// limit, so that little is learned from going on for long.
 pub const REACH: f64 = 1.3;
 
-/// So many of the covered vertices are asked whether a source edge leads from them to the one removed.
-const MANY: usize = 16;
+/// Most covered vertices that are asked whether a source edge leads from them to the removed one.
+const MAX_ASKED_BELOW: usize = 16;
 
 /// No corner, of a vertex that is removed or that is not.
 const NOT_ON_RIM: u8 = u8::MAX;
@@ -95,7 +97,7 @@ impl Certified {
         replacement: Replacement<'_>,
         limit: f64,
         transfer: &mut Transfer,
-    ) -> Result<(f64, Change), f64> {
+    ) -> Result<(f64, MapChange), f64> {
         match transfer.change(self, replacement, limit) {
             Ok((displacement, change)) if displacement + self.slack <= limit => {
                 Ok((displacement + self.slack, change))
@@ -111,7 +113,7 @@ impl Certified {
     /// What there would be too many of.
     pub fn check_room<'a>(
         &self,
-        changes: impl Iterator<Item = (&'a Hole, &'a Change)>,
+        changes: impl Iterator<Item = (&'a Hole, &'a MapChange)>,
     ) -> Result<(), TooMany> {
         let (mut of_chains, mut of_contents) = (0, 0);
         for (hole, change) in changes {
@@ -125,7 +127,7 @@ impl Certified {
 
     /// Carries the map over to the filling of each hole, one after another. No two changes have a star or a source edge in common, and
     /// there must be [room](Self::check_room) for them.
-    pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone + Send) {
+    pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a MapChange)> + Clone + Send) {
         let Self { chains, contents, rim_corner, rim_slots, .. } = self;
         let of_chains = changes.clone();
         let set_chains = || of_chains.for_each(|(_, change)| change.set_chains(chains));
@@ -179,7 +181,7 @@ impl Certified {
         }
         let corners = hole.ring.iter().enumerate().map(|(at, &r)| (r, Some(at)));
         let covered = covered.iter().filter(|&&x| x != v).map(|&x| (x, None));
-        for (low, corner) in corners.chain(covered.take(MANY)).filter(|&(other, _)| other < v) {
+        for (low, corner) in corners.chain(covered.take(MAX_ASKED_BELOW)).filter(|&(other, _)| other < v) {
             let is_end = source.edge(low, v).is_some_and(|edge| !chains.has(edge));
             if is_end {
                 take(low, corner);

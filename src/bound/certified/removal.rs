@@ -1,14 +1,21 @@
 //! What a removal means for the map: where its vertices and edges lie in the star and in the filling.
 
 use super::labels::Labels;
-use super::route::Met;
 use super::star::OUTSIDE;
 use super::{Certified, NOT_ON_RIM};
-use crate::bound::Replacement;
 use crate::bound::removed::nearest;
+use crate::bound::replacement::Replacement;
 use crate::geometry::distance::{Segment, point_triangle_distance_sq};
 use crate::geometry::vector::Vector;
 use std::ops::ControlFlow;
+
+/// A source edge with a chain, found in a triangle of the star.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ChainInStar {
+    pub(super) edge: u32,
+    /// Index of the triangle in the star.
+    pub(super) at: u8,
+}
 
 /// A hole, its filling, and what the map is before the removal.
 #[derive(Clone, Copy)]
@@ -31,18 +38,19 @@ impl Removal<'_> {
     #[inline]
     pub(super) fn try_each_chained_edge(
         &self,
-        mut take: impl FnMut(Met) -> ControlFlow<()>,
+        mut take: impl FnMut(ChainInStar) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         for (at, &slot) in (0..).zip(&self.replacement.hole.slots) {
             for &edge in self.certified.contents.edges(slot) {
-                take(Met { edge, at })?;
+                take(ChainInStar { edge, at })?;
             }
         }
         ControlFlow::Continue(())
     }
 
-    /// Shows `take` the source edges without a chain that are to get one, with their ends, given where the vertices go, each once,
-    /// until it breaks. Both ends are corners of the star or mapped into it: each is met at its lower end.
+    /// Shows `take` the source edges without a chain that are to get one, with their ends, given where
+    /// the vertices go, each once, until it breaks. Both ends are corners of the star or mapped into
+    /// it; an edge is found at its lower end.
     #[inline]
     pub(super) fn try_each_split_edge(
         &self,
@@ -73,8 +81,8 @@ impl Removal<'_> {
         ControlFlow::Continue(())
     }
 
-    /// A triangle for a covered vertex, and its squared distance: the one that it lies over, as long as that is within the limit,
-    /// or else the nearest one.
+    /// A triangle for a covered vertex, and its squared distance: the one that it lies over if that is
+    /// within the limit, or else the nearest one.
     #[expect(clippy::cast_possible_truncation, reason = "a filling has fewer than MAX_VALENCE triangles")]
     #[inline]
     pub(super) fn near(&self, p: Vector, over: Option<usize>, limit_sq: f64) -> (u8, f64) {

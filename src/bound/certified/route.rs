@@ -1,23 +1,24 @@
 //! The way of a source edge through a hole that has been filled.
 
-use super::Certified;
 use super::chains::Portion;
+use super::change::Assignment;
 use super::dual_tree::{Crossing, DualTree};
 use super::labels::Labels;
-use super::removal::Removal;
-use super::star::{OUTSIDE, Star};
+use super::removal::{ChainInStar, Removal};
+use super::star::{OUTSIDE, StarIndex};
+use super::{Certified, NOT_ON_RIM};
 use crate::geometry::distance::{Segment, point_segment_distance_sq};
 use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
 
-/// Where the vertices of a hole have gone.
+/// A hole in the middle of its filling: which triangle of the star, and which of the filling.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Destinations {
+pub(super) struct HoleMap {
     /// The filling's dual tree.
     pub(super) tree: DualTree,
     /// The filling's triangle for each vertex mapped into the hole.
     pub(super) labels: Labels,
     /// The star that the filling replaces.
-    pub(super) star: Star,
+    pub(super) star: StarIndex,
 }
 
 /// The new chain of one edge at a time.
@@ -25,6 +26,8 @@ pub(super) struct Destinations {
 pub(super) struct Route {
     /// The edge's ends, the lower one first.
     ends: [u32; 2],
+    /// Their places in the input.
+    segment: Segment,
     /// Its portions.
     pub(super) portions: Vec<Portion>,
     /// For each of them the filling's triangle, or [`OUTSIDE`].
@@ -34,61 +37,65 @@ pub(super) struct Route {
     path: Vec<Crossing>,
 }
 
-/// A source edge with a chain, met in a triangle of the star.
+/// Where a source edge enters or leaves the hole, or begins or ends in it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
-    pub(super) edge: u32,
-    /// Index of the triangle in the star.
-    pub(super) at: u8,
-}
-
-/// One end of a part of a source edge that lies in the hole.
-#[derive(Clone, Copy, Debug)]
-enum End {
-    /// In this triangle of the filling: a removed vertex, or a crossing of the ring edge there.
-    In(u8),
+enum SpanEnd {
+    /// In this triangle of the filling: at a removed vertex, or over the ring edge there.
+    InTriangle(u8),
     /// At this ring vertex, which every triangle around it may claim.
-    At(u8),
+    AtRingVertex(u8),
 }
 
-/// A part of a source edge that enters the hole and leaves it again.
+/// The stretch of a source edge from where it enters the hole to where it leaves it again.
 #[derive(Clone, Copy, Debug)]
-struct Part {
-    entry: End,
-    exit: End,
+struct HoleSpan {
+    entry: SpanEnd,
+    exit: SpanEnd,
     /// Where it begins and ends, as parts of the edge.
     start: f32,
     end: f32,
 }
 
-impl Destinations {
-    /// The end of a part at a source vertex.
-    fn end_at(&self, removal: Removal<'_>, v: u32) -> End {
+impl HoleMap {
+    /// The end of a span at a source vertex.
+    fn end_at(&self, removal: Removal<'_>, v: u32) -> SpanEnd {
         match self.labels.get(v) {
-            Some(label) => End::In(label),
-            None => End::At(removal.ring_index(v)),
+            Some(label) => SpanEnd::InTriangle(label),
+            None => SpanEnd::AtRingVertex(removal.ring_index(v)),
         }
     }
 
-    /// The end of a part that comes over the ring edge of the star's triangle `i`.
-    fn end_over(&self, i: u8) -> End {
-        End::In(self.tree.at_ring_edge(i.into()))
+    /// The end of a span that comes over the ring edge of the star's triangle `i`.
+    fn end_over(&self, i: u8) -> SpanEnd {
+        SpanEnd::InTriangle(self.tree.at_ring_edge(i.into()))
+    }
+
+    /// Where the image of a covered vertex is from now on.
+    pub(super) fn assign(&self, removal: Removal<'_>, vertex: u32) -> Assignment {
+        Assignment {
+            vertex,
+            label: self.labels.get(vertex).unwrap_or_default(),
+            rim_corner: removal.new_rim(vertex).unwrap_or(NOT_ON_RIM),
+        }
     }
 }
 
 impl Route {
-    /// Makes this the new chain of the edge met; the largest squared displacement of a crossing that is new. Nothing where the edge
-    /// does not first come into the star here: it is met elsewhere, or its chain has left the star.
+    /// Makes this the new chain of an edge found in the star, and returns the largest squared
+    /// displacement of its new crossings. `None` if the edge enters the star in another triangle,
+    /// where it is found as well, or if its chain has left the star.
     pub(super) fn follow(
         &mut self,
-        destinations: &Destinations,
+        hole_map: &HoleMap,
         removal: Removal<'_>,
-        met: Met,
+        ChainInStar { edge, at: here }: ChainInStar,
     ) -> Option<f64> {
-        let Met { edge, at: here } = met;
         let Certified { source, chains, .. } = removal.certified;
         let old = chains.of(edge);
-        let mut labels = old.iter().map(|portion| destinations.star.label(portion.slot));
+        // Contents may list an edge in several triangles of the star, and in one that its chain has
+        // left. Only the first triangle that the chain runs through follows it, so each is followed
+        // once.
+        let mut labels = old.iter().map(|portion| hole_map.star.label(portion.slot));
         let n_before = labels.by_ref().position(|label| label != OUTSIDE)?;
         if old[n_before].slot != removal.replacement.hole.slots[usize::from(here)] {
             return None;
@@ -97,51 +104,54 @@ impl Route {
         self.old_labels.resize(n_before, OUTSIDE);
         self.old_labels.push(here);
         self.old_labels.extend(labels);
-        let ends = source.ends(edge);
-        self.ends = ends;
-        let segment = ends.map(|v| removal.replacement.surface.origin(v));
-        self.portions.clear();
-        self.labels.clear();
+        self.start(removal, source.ends(edge));
         let mut largest_sq = 0.0_f64;
-        let mut start = 0.0;
-        let mut at = 0;
+        let (mut start, mut at) = (0.0, 0);
         while at < old.len() {
             let first = self.old_labels[at];
             if first == OUTSIDE {
+                // What lies outside stays as it is.
                 self.push(old[at], OUTSIDE);
                 start = old[at].end;
                 at += 1;
                 continue;
             }
+            // A run of portions in the star is one span of the hole. Its ends keep their places: they
+            // are crossings of ring edges, which stay, or ends of the edge.
+            let n_inside = self.old_labels[at..].iter().take_while(|&&label| label != OUTSIDE).count();
+            let last = at + n_inside - 1;
             let entry =
-                if at == 0 { destinations.end_at(removal, ends[0]) } else { destinations.end_over(first) };
-            while self.old_labels.get(at + 1).is_some_and(|&label| label != OUTSIDE) {
-                at += 1;
-            }
-            let is_last = at + 1 == old.len();
-            let exit = if is_last {
-                destinations.end_at(removal, ends[1])
+                if at == 0 { hole_map.end_at(removal, self.ends[0]) } else { hole_map.end_over(first) };
+            let exit = if last + 1 == old.len() {
+                hole_map.end_at(removal, self.ends[1])
             } else {
-                destinations.end_over(self.old_labels[at])
+                hole_map.end_over(self.old_labels[last])
             };
-            let end = old[at].end;
-            largest_sq =
-                largest_sq.max(self.cross(destinations, removal, segment, Part { entry, exit, start, end }));
+            // In between it takes the one path through the filling's dual tree, whatever it did in
+            // the star.
+            let end = old[last].end;
+            let span = HoleSpan { entry, exit, start, end };
+            largest_sq = largest_sq.max(self.cross(&hole_map.tree, removal, span));
             start = end;
-            at += 1;
+            at = last + 1;
         }
         Some(largest_sq)
     }
 
-    /// Makes this the chain of the edge with the given ends, which had none and lies in the hole; the largest squared displacement of
-    /// a crossing.
-    pub(super) fn split(&mut self, destinations: &Destinations, removal: Removal<'_>, ends: [u32; 2]) -> f64 {
+    /// Makes this the chain of the edge with the given ends, which had none and lies in the hole;
+    /// returns the largest squared displacement of a crossing.
+    pub(super) fn split(&mut self, hole_map: &HoleMap, removal: Removal<'_>, ends: [u32; 2]) -> f64 {
+        self.start(removal, ends);
+        let [entry, exit] = ends.map(|v| hole_map.end_at(removal, v));
+        self.cross(&hole_map.tree, removal, HoleSpan { entry, exit, start: 0.0, end: 1.0 })
+    }
+
+    /// Begins the chain of the edge with the given ends.
+    fn start(&mut self, removal: Removal<'_>, ends: [u32; 2]) {
         self.ends = ends;
-        let segment = ends.map(|v| removal.replacement.surface.origin(v));
+        self.segment = ends.map(|v| removal.replacement.surface.origin(v));
         self.portions.clear();
         self.labels.clear();
-        let [entry, exit] = ends.map(|v| destinations.end_at(removal, v));
-        self.cross(destinations, removal, segment, Part { entry, exit, start: 0.0, end: 1.0 })
     }
 
     /// Takes out what the chain does not need: going over an edge and straight back, and turning about a vertex that is
@@ -150,6 +160,8 @@ impl Route {
         let &mut Self { ends: [low, high], ref mut portions, ref mut labels, .. } = self;
         let touches = |portion: Portion, label, v| removal.touches(portion.slot, label, v);
         let mut kept = 0;
+        // Like a stack of brackets: a portion that returns to the triangle before the last takes the
+        // last one with it.
         for at in 0..portions.len() {
             let (portion, label) = (portions[at], labels[at]);
             if kept >= 2 && portions[kept - 2].slot == portion.slot {
@@ -185,49 +197,43 @@ impl Route {
         self.labels.push(label);
     }
 
-    /// Appends the portions of one part; the largest squared displacement of its crossings.
-    fn cross(
-        &mut self,
-        destinations: &Destinations,
-        removal: Removal<'_>,
-        segment: Segment,
-        part: Part,
-    ) -> f64 {
+    /// Appends the portions of one span; returns the largest squared displacement of its crossings.
+    fn cross(&mut self, tree: &DualTree, removal: Removal<'_>, span: HoleSpan) -> f64 {
         let hole = removal.replacement.hole;
-        let mut into = self.find_path(&destinations.tree, part.entry, part.exit);
-        let mut start = part.start;
+        let mut into = self.find_path(tree, span.entry, span.exit);
+        let mut start = span.start;
         let mut largest_sq = 0.0_f64;
         for &Crossing { edge: [i, j], into: next } in &self.path {
             let target = [hole.points[usize::from(i)], hole.points[usize::from(j)]];
-            let (s, distance_sq) = cross_nearest(segment, start, part.end, target);
+            let (s, distance_sq) = cross_nearest(self.segment, start, span.end, target);
             self.portions.push(Portion { slot: hole.slots[usize::from(into)], end: s });
             self.labels.push(into);
             largest_sq = largest_sq.max(distance_sq);
             start = s;
             into = next;
         }
-        self.push(Portion { slot: hole.slots[usize::from(into)], end: part.end }, into);
+        self.push(Portion { slot: hole.slots[usize::from(into)], end: span.end }, into);
         largest_sq
     }
 
     /// Puts the path between two ends into `self.path` and returns the triangle it starts in. An end at a ring vertex
     /// is taken in the triangle around that vertex that makes the path shortest.
-    fn find_path(&mut self, tree: &DualTree, entry: End, exit: End) -> u8 {
+    fn find_path(&mut self, tree: &DualTree, entry: SpanEnd, exit: SpanEnd) -> u8 {
         let any_triangle = |end| match end {
-            End::In(triangle) => triangle,
-            End::At(corner) => tree.at_ring_vertex(corner),
+            SpanEnd::InTriangle(triangle) => triangle,
+            SpanEnd::AtRingVertex(corner) => tree.at_ring_vertex(corner),
         };
         let mut first = any_triangle(entry);
         self.path.clear();
         tree.path(first, any_triangle(exit), &mut self.path);
-        if let End::At(corner) = entry {
+        if let SpanEnd::AtRingVertex(corner) = entry {
             let n_turns = self.path.iter().take_while(|crossing| crossing.edge.contains(&corner)).count();
             if n_turns > 0 {
                 first = self.path[n_turns - 1].into;
                 self.path.drain(..n_turns);
             }
         }
-        if let End::At(corner) = exit {
+        if let SpanEnd::AtRingVertex(corner) = exit {
             let n_turns =
                 self.path.iter().rev().take_while(|crossing| crossing.edge.contains(&corner)).count();
             self.path.truncate(self.path.len() - n_turns);

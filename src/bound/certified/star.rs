@@ -8,19 +8,19 @@ const N_PLACES: usize = 256;
 
 /// The slots of a star's triangles, found by their lowest bits: those of most triangles of a star differ, being near each other.
 #[derive(Clone, Debug)]
-pub(super) struct Star {
+pub(super) struct StarIndex {
     slots: Vec<u32>,
     /// Index of one slot of the star with these lowest bits, or [`OUTSIDE`].
     one: [u8; N_PLACES],
 }
 
-impl Default for Star {
+impl Default for StarIndex {
     fn default() -> Self {
         Self { slots: vec![], one: [OUTSIDE; N_PLACES] }
     }
 }
 
-impl Star {
+impl StarIndex {
     /// Makes this the star with the given slots, fewer than [`OUTSIDE`].
     pub(super) fn set(&mut self, slots: &[u32]) {
         for &slot in &self.slots {
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn labels_are_places_in_the_star() {
-        let mut star = Star::default();
+        let mut star = StarIndex::default();
         for n in [20, 3, 8] {
             // Some with the same lowest bits.
             let slots: Vec<u32> = (0..n).map(|at| 64 * at).collect();

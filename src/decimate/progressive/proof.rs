@@ -7,7 +7,7 @@
 use super::complex::Complex;
 use super::ring::Ring;
 use crate::bound::Replacement;
-use crate::bound::certified::{Certified, Change, Transfer};
+use crate::bound::certified::{Certified, MapChange, Transfer};
 use crate::mesh::{Filling, Hole, Surface};
 
 /// The map from the input onto the current mesh, and that mesh once more in the form that the map refers to.
@@ -62,7 +62,7 @@ pub struct AboveLimit;
 pub struct Plan<'a> {
     proof: &'a mut Proof,
     error: f64,
-    change: Change,
+    change: MapChange,
 }
 
 impl Plan<'_> {
