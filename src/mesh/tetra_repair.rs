@@ -17,7 +17,7 @@
 use super::UsedVertices;
 use super::tetrahedra::{FACES, Sides, boundary_triangles, faces_by_least_vertex};
 use crate::flat::{DisjointSets, Groups};
-use nephrite_formats::TetrahedronMesh;
+use nephrite_formats::{Attribute, TetrahedronMesh};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
