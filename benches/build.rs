@@ -8,12 +8,12 @@
 )]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use nephrite::{Bound, Build, BuildOptions, TriangleMesh, bounding_diagonal, build, generate};
-use std::ops::ControlFlow;
+use nephrite::{
+    Build, BuildOptions, EstimateKind, JadeOptions, TriangleMesh, bounding_diagonal, build, generate,
+};
 
-fn build_to(mesh: &TriangleMesh, bound: Bound, max_error: Option<f64>) -> Build {
-    let options = BuildOptions { bound, max_error, ..BuildOptions::default() };
-    build(mesh, &options, &|_| ControlFlow::Continue(())).unwrap()
+fn build_to(mesh: &TriangleMesh, jade: JadeOptions, max_error: Option<f64>) -> Build {
+    build(mesh, &BuildOptions { max_error, ..BuildOptions::with(jade) }).unwrap()
 }
 
 /// Errors of the paper's LOD sets, from the finest to 5 % of the diagonal.
@@ -26,20 +26,23 @@ fn all_levels(criterion: &mut Criterion) {
     let diagonal = bounding_diagonal(&mesh);
     let mut group = criterion.benchmark_group("build");
     group.throughput(Throughput::Elements(mesh.triangles.len() as u64)).sample_size(10);
-    for bound in [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated] {
-        group.bench_function(BenchmarkId::new("all levels to 5 %", format!("{bound:?}")), |bencher| {
-            bencher.iter(|| build_to(&mesh, bound, Some(0.05 * diagonal)));
+    let estimates = [EstimateKind::Joint, EstimateKind::Removed, EstimateKind::Accumulated];
+    let proof = JadeOptions::default();
+    for jade in [proof].into_iter().chain(estimates.map(JadeOptions::estimate)) {
+        let bound = BuildOptions::with(jade).bound();
+        group.bench_function(BenchmarkId::new("all levels to 5 %", bound), |bencher| {
+            bencher.iter(|| build_to(&mesh, jade, Some(0.05 * diagonal)));
         });
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     group.bench_function("all levels to 5 %, one thread", |bencher| {
-        bencher.iter(|| pool.install(|| build_to(&mesh, Bound::Certified, Some(0.05 * diagonal))));
+        bencher.iter(|| pool.install(|| build_to(&mesh, proof, Some(0.05 * diagonal))));
     });
     for n_levels in [3, 5, 9] {
         group.bench_function(BenchmarkId::new("a run per level", n_levels), |bencher| {
             bencher.iter(|| {
                 errors_of_lods(n_levels, diagonal)
-                    .map(|error| build_to(&mesh, Bound::Certified, Some(error)))
+                    .map(|error| build_to(&mesh, proof, Some(error)))
                     .collect::<Vec<_>>()
             });
         });

@@ -7,6 +7,7 @@
 
 use crate::measure::{MeasureError, Verdict, check_within};
 use crate::query::{Cut, Lod, QueryError};
+use crate::store::Bound;
 use nephrite_formats::TriangleMesh;
 
 /// Pieces after which the proof of a level is given up.
@@ -34,7 +35,7 @@ pub enum ReproveError {
     #[error("errors are of the kind {found}, only certified ones can be proven")]
     NotCertified {
         /// What the file's metadata say the errors are.
-        found: String,
+        found: Bound,
     },
     /// The file does not claim a proof for this level, as where a decimator has changed the topology.
     #[error("level {level} carries an estimate, certified are the errors up to level {last_certified}")]
@@ -83,11 +84,11 @@ impl<'a> ErrorTable<'a> {
     /// [`ReproveError`] when the file's errors are estimates, or its finest level is damaged.
     pub fn new(lod: &'a Lod) -> Result<Self, ReproveError> {
         let metadata = lod.metadata().map_err(|error| ReproveError::Metadata(error.to_string()))?;
-        let found = metadata.provenance.bound;
-        if found != "certified" && !(found == "boundary" && lod.n_corners() == 4) {
-            return Err(ReproveError::NotCertified { found });
+        let proven = if lod.n_corners() == 4 { Bound::Boundary } else { Bound::Certified };
+        if metadata.bound != proven {
+            return Err(ReproveError::NotCertified { found: metadata.bound });
         }
-        let least = metadata.provenance.certified_simplices.unwrap_or(0);
+        let least = metadata.certified_simplices.unwrap_or(0);
         let n_certified = lod.curve().take_while(|point| u64::from(point.simplices) >= least).count();
         let last_certified = u32::try_from(n_certified.saturating_sub(1)).unwrap_or(u32::MAX);
         let input = surface(lod, &lod.at_level(0))?;

@@ -7,9 +7,11 @@
 
 mod engine;
 
-use engine::{alive_at, build_all, corners_of, one_sided, spread_steps};
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::{Bound, BuildOptions, Method, TriangleMesh, bounding_diagonal, generate};
+use engine::{alive_at, build_all, corners_of, every_bound, one_sided, spread_steps};
+use nephrite::{
+    BuildOptions, EstimateKind, JadeOptions, Placement, ProgressiveBound, ProgressiveOptions, TriangleMesh,
+    bounding_diagonal, generate,
+};
 
 /// Checks `n_levels` levels; returns the ratio of measured to stated error of each level whose
 /// error is not 0.
@@ -19,12 +21,12 @@ fn check(name: &str, mesh: &TriangleMesh, n_levels: u32) -> Vec<f64> {
 
 fn check_with(name: &str, mesh: &TriangleMesh, n_levels: u32, options: &BuildOptions) -> Vec<f64> {
     let build = build_all(mesh, options);
-    let input = corners_of(&build.mesh, &mesh.triangles);
+    let input = corners_of(build.vertices(), &mesh.triangles);
     let rounding = 1e-12 * bounding_diagonal(mesh);
     let mut ratios = vec![];
-    for step in spread_steps(&build.history, n_levels) {
-        let stated = build.history.errors[step as usize];
-        let level = corners_of(&build.mesh, &alive_at(&build.history, step));
+    for step in spread_steps(build.history(), n_levels) {
+        let stated = build.history().errors[step as usize];
+        let level = corners_of(build.vertices(), &alive_at(build.history(), step));
         let per_side = if level.len() > 200 { 2 } else { 8 };
         let measured = one_sided(&input, &level, 2).max(one_sided(&level, &input, per_side));
         assert!(
@@ -92,7 +94,7 @@ fn noisy_torus() -> TriangleMesh {
 
 #[test]
 fn vertices_that_move() {
-    let best = BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..BuildOptions::default() };
+    let best = BuildOptions::with(JadeOptions::certified(Placement::Best));
     let mut ratios = vec![];
     ratios.extend(check_with("sphere", &generate::sphere(8), 16, &best));
     ratios.extend(check_with("torus", &generate::torus(28, 14), 16, &best));
@@ -133,19 +135,18 @@ fn folded_patch() -> TriangleMesh {
 #[test]
 fn a_limit_on_the_progressive_decimator() {
     let options = BuildOptions {
-        method: Method::Progressive,
         max_error: Some(0.8),
         feature_angle_degrees: 180.0,
-        ..BuildOptions::default()
+        ..BuildOptions::with(ProgressiveOptions::default())
     };
     let mesh = folded_patch();
     let build = build_all(&mesh, &options);
-    let input = corners_of(&build.mesh, &alive_at(&build.history, 0));
-    let n_certified = build.passage.as_ref().unwrap().n_certified_steps;
+    let input = corners_of(build.vertices(), &alive_at(build.history(), 0));
+    let n_certified = build.progressive().unwrap().n_certified_steps;
     assert!(n_certified > 4, "{n_certified}");
     for step in 0..n_certified {
-        let stated = build.history.errors[step as usize];
-        let level = corners_of(&build.mesh, &alive_at(&build.history, step));
+        let stated = build.history().errors[step as usize];
+        let level = corners_of(build.vertices(), &alive_at(build.history(), step));
         let measured = one_sided(&input, &level, 8).max(one_sided(&level, &input, 8));
         assert!(measured <= stated + 1e-9, "step {step}: measured {measured}, stated {stated}");
     }
@@ -158,20 +159,22 @@ fn what_the_repair_drops_counts_at_every_level() {
     let tip = mesh.positions[40];
     mesh.positions.push([tip[0], tip[1], tip[2] + 5.0]);
     mesh.triangles.push([40, n, 40]);
-    for (method, bound) in [
-        (Method::Jade, Bound::Certified),
-        (Method::Jade, Bound::Joint),
-        (Method::Progressive, Bound::Certified),
-        (Method::Progressive, Bound::Accumulated),
+    let estimated =
+        ProgressiveOptions { bound: ProgressiveBound::Accumulated, ..ProgressiveOptions::default() };
+    for options in [
+        BuildOptions::default(),
+        BuildOptions::with(JadeOptions::estimate(EstimateKind::Joint)),
+        BuildOptions::with(ProgressiveOptions::default()),
+        BuildOptions::with(estimated),
     ] {
-        let options = BuildOptions { method, bound, ..BuildOptions::default() };
+        let method = options.method();
         let build = build_all(&mesh, &options);
-        let [first, last] = [build.history.errors[0], *build.history.errors.last().unwrap()];
+        let [first, last] = [build.history().errors[0], *build.history().errors.last().unwrap()];
         // The surface slopes at the foot, and so it may be nearer to the tip than the foot is.
-        assert!((4.0..=5.05).contains(&first) && first == build.dropped_distance, "{method:?}: {first}");
+        assert!((4.0..=5.05).contains(&first) && first == build.dropped_distance(), "{method:?}: {first}");
         assert!(last > first, "{method:?}: {last}");
         let beyond = BuildOptions { max_error: Some(1.0), ..options };
-        assert!(build_all(&mesh, &beyond).history.errors.iter().all(|&error| error == first));
+        assert!(build_all(&mesh, &beyond).history().errors.iter().all(|&error| error == first));
     }
     // A segment along an edge, a point at a corner and a repeated triangle drop nothing that is not
     // there still.
@@ -179,17 +182,17 @@ fn what_the_repair_drops_counts_at_every_level() {
     let [a, b, _] = harmless.triangles[7];
     harmless.triangles.extend([[a, b, a], [b, b, b], harmless.triangles[9]]);
     let build = build_all(&harmless, &BuildOptions::default());
-    assert_eq!((build.dropped_distance, build.history.errors[0]), (0.0, 0.0));
+    assert_eq!((build.dropped_distance(), build.history().errors[0]), (0.0, 0.0));
 }
 
 #[test]
 fn the_error_asked_for_is_kept() {
     let mesh = generate::cosine(40);
     let max_error = 0.005 * bounding_diagonal(&mesh);
-    for bound in [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated] {
-        let options = BuildOptions { bound, max_error: Some(max_error), ..BuildOptions::default() };
+    for usual in every_bound() {
+        let options = BuildOptions { max_error: Some(max_error), ..usual };
         let build = build_all(&mesh, &options);
-        let last = *build.history.errors.last().unwrap();
-        assert!(last <= max_error && last > 0.8 * max_error, "{bound:?}: {last} of {max_error}");
+        let last = *build.history().errors.last().unwrap();
+        assert!(last <= max_error && last > 0.8 * max_error, "{:?}: {last} of {max_error}", options.bound());
     }
 }

@@ -9,11 +9,8 @@
 mod support;
 
 use nephrite::generate::{ball_volume, box_volume};
-use nephrite::reprove::ErrorTable;
-use nephrite::store::Provenance;
-use nephrite::{BuildError, TetrahedronMesh, VolumeOptions, build_volume};
+use nephrite::{BuildError, ErrorTable, TetrahedronMesh, VolumeOptions, build_volume};
 use std::collections::BTreeSet;
-use std::ops::ControlFlow::Continue;
 use support::served::served;
 use support::synthetic::Random;
 
@@ -67,12 +64,11 @@ fn not_positive(mesh: &TetrahedronMesh) -> BTreeSet<[[u32; 3]; 4]> {
 
 /// Number of levels; 0 if no tetrahedron is left.
 fn check(name: &str, mesh: &TetrahedronMesh, options: &VolumeOptions) -> u32 {
-    let build = match build_volume(mesh, options, &|_| Continue(())) {
+    let build = match build_volume(mesh, options) {
         Err(BuildError::NoTetrahedra { .. }) => return 0,
         build => build.unwrap(),
     };
-    let provenance = Provenance { bound: "boundary".into(), ..Provenance::default() };
-    let lod = served(&build.mesh, &build.history, &provenance);
+    let lod = served(|stream, options| build.write_to(stream, options));
     let table = ErrorTable::new(&lod).unwrap();
     let first = lod.at_level(0).to_volume().unwrap();
     // Repair rights what it can; the rest stays as it was.
@@ -83,7 +79,7 @@ fn check(name: &str, mesh: &TetrahedronMesh, options: &VolumeOptions) -> u32 {
         mesh.check().unwrap();
         assert!(not_positive(&mesh).is_subset(&bad_at_first), "{name}: inverted at level {level}");
         let kept = mesh.volume() / first.volume();
-        let is_known = build.repairs.tetrahedra_inverted == 0;
+        let is_known = build.repairs().tetrahedra_inverted == 0;
         assert!(!is_known || (kept - 1.0).abs() <= 0.001, "{name}: {kept} of the volume at level {level}");
         table.prove(level).unwrap_or_else(|error| panic!("{name}: {error}"));
     }

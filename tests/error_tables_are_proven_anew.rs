@@ -4,44 +4,25 @@
 #![allow(clippy::unwrap_used, reason = "tests on small meshes")]
 
 mod engine;
+mod support;
 
 use engine::build_all;
-use nephrite::reprove::{ErrorTable, ReproveError};
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{Bound, BuildOptions, History, Lod, Method, TriangleMesh, generate};
+use nephrite::{
+    Bound, Build, BuildOptions, ErrorTable, EstimateKind, JadeOptions, Lod, ProgressiveOptions, ReproveError,
+    StoreOptions, generate,
+};
+use nephrite_formats::neph::SectionKind;
 use std::io::Cursor;
+use support::damage::with_section;
 
-fn file(mesh: &TriangleMesh, history: &History, bound: &str) -> Lod {
-    file_certified_to(mesh, history, bound, None)
+fn file_bytes(build: &Build) -> Vec<u8> {
+    let mut bytes = Cursor::new(vec![]);
+    build.write_to(&mut bytes, &StoreOptions { levels: Some(40), ..StoreOptions::default() }).unwrap();
+    bytes.into_inner()
 }
 
-fn file_certified_to(
-    mesh: &TriangleMesh,
-    history: &History,
-    bound: &str,
-    certified_simplices: Option<u64>,
-) -> Lod {
-    let provenance = Provenance {
-        method: "jade".into(),
-        bound: bound.into(),
-        max_error: None,
-        n_vertices_in: mesh.positions.len() as u64,
-        n_simplices_in: mesh.triangles.len() as u64,
-        options: serde_json::Value::Null,
-        repairs: serde_json::Value::Null,
-        certified_simplices,
-        ..Provenance::default()
-    };
-    let mut bytes = Cursor::new(vec![]);
-    write_to(
-        &mut bytes,
-        mesh,
-        history,
-        &provenance,
-        &StoreOptions { levels: Some(40), ..StoreOptions::default() },
-    )
-    .unwrap();
-    Lod::from_bytes(bytes.get_ref()).unwrap()
+fn file(build: &Build) -> Lod {
+    Lod::from_bytes(&file_bytes(build)).unwrap()
 }
 
 /// Levels of the file whose error is not proven.
@@ -56,7 +37,7 @@ fn what_the_builder_states_is_proven_again() {
         [generate::cosine(40), generate::torus(40, 20), generate::plate(2, 2, 12), generate::moebius(48, 5)]
     {
         let build = build_all(&mesh, &BuildOptions::default());
-        let lod = file(&build.mesh, &build.history, "certified");
+        let lod = file(&build);
         assert!(lod.n_levels() > 8);
         assert_eq!(failures(&lod), []);
     }
@@ -65,9 +46,11 @@ fn what_the_builder_states_is_proven_again() {
 #[test]
 fn a_table_that_states_too_little_is_found_out() {
     let build = build_all(&generate::cosine(40), &BuildOptions::default());
-    let mut forged = build.history.clone();
-    forged.errors.iter_mut().for_each(|error| *error *= 0.8);
-    let failures = failures(&file(&build.mesh, &forged, "certified"));
+    let bytes = file_bytes(&build);
+    let errors: Vec<u8> =
+        file(&build).errors().iter().flat_map(|error| (error * 0.8).to_le_bytes()).collect();
+    let forged = Lod::from_bytes(&with_section(&bytes, SectionKind::Errors, &errors)).unwrap();
+    let failures = failures(&forged);
     let exceeded = failures.iter().filter(|failure| matches!(failure, ReproveError::Exceeded { .. })).count();
     assert!(exceeded > 8, "{failures:?}");
 }
@@ -75,18 +58,17 @@ fn a_table_that_states_too_little_is_found_out() {
 #[test]
 fn estimates_are_not_up_for_proof() {
     let mesh = generate::cosine(20);
-    let build = build_all(&mesh, &BuildOptions { bound: Bound::Joint, ..BuildOptions::default() });
-    let lod = file(&build.mesh, &build.history, "joint");
+    let build = build_all(&mesh, &BuildOptions::with(JadeOptions::estimate(EstimateKind::Joint)));
+    let lod = file(&build);
     let refused = ErrorTable::new(&lod).map(|_| ()).unwrap_err();
-    assert_eq!(refused, ReproveError::NotCertified { found: "joint".into() });
+    assert_eq!(refused, ReproveError::NotCertified { found: Bound::Joint });
 }
 
 #[test]
 fn levels_behind_a_change_of_topology_are_not_up_for_proof() {
-    let options = BuildOptions { method: Method::Progressive, ..BuildOptions::default() };
+    let options = BuildOptions::with(ProgressiveOptions::default());
     let build = build_all(&generate::torus(24, 12), &options);
-    let least = build.n_certified_triangles().unwrap();
-    let lod = file_certified_to(&build.mesh, &build.history, "certified", Some(least as u64));
+    let lod = file(&build);
     let table = ErrorTable::new(&lod).unwrap();
     let last_certified = table.last_certified();
     assert!(last_certified > 8 && last_certified + 1 < lod.n_levels(), "{last_certified}");

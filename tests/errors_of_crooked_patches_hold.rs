@@ -7,11 +7,10 @@
 
 mod support;
 
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::reprove::ErrorTable;
-use nephrite::store::Provenance;
-use nephrite::{Attribute, BuildError, BuildOptions, Method, ScalarType, TriangleMesh, build};
-use std::ops::ControlFlow::Continue;
+use nephrite::{
+    Attribute, BuildError, BuildOptions, ErrorTable, JadeOptions, Placement, ProgressiveOptions, ScalarType,
+    TriangleMesh, build,
+};
 use support::served::served;
 use support::synthetic::Random;
 
@@ -96,24 +95,19 @@ fn ways() -> [BuildOptions; 4] {
     [
         usual,
         BuildOptions { feature_angle_degrees: 0.0, ..usual },
-        BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..usual },
-        BuildOptions { method: Method::Progressive, ..usual },
+        BuildOptions::with(JadeOptions::certified(Placement::Best)),
+        BuildOptions::with(ProgressiveOptions::default()),
     ]
 }
 
 /// Builds a mesh and proves the errors of `n` levels, the last one among them. Returns the number
 /// of levels; 0 if no triangle has an area.
 fn check(name: &str, mesh: &TriangleMesh, options: &BuildOptions, n: u32) -> u32 {
-    let build = match build(mesh, options, &|_| Continue(())) {
+    let build = match build(mesh, options) {
         Err(BuildError::NoTriangles { .. }) => return 0,
         build => build.unwrap(),
     };
-    let provenance = Provenance {
-        bound: "certified".into(),
-        certified_simplices: build.n_certified_triangles().map(|n| n as u64),
-        ..Provenance::default()
-    };
-    let lod = served(&build.mesh, &build.history, &provenance);
+    let lod = served(|stream, options| build.write_to(stream, options));
     let table = ErrorTable::new(&lod).unwrap();
     let last = (0..=table.last_certified()).rev().find(|&level| lod.at_level(level).n_simplices() > 0);
     let last = last.unwrap_or(0);

@@ -5,14 +5,12 @@
 mod support;
 
 use nephrite::generate::box_volume;
-use nephrite::store::Provenance;
 use nephrite::{Attribute, Lod, ScalarType, TetrahedronMesh, VolumeBuild, VolumeOptions, build_volume};
-use std::ops::ControlFlow::Continue;
 use support::served::served;
 
 fn built_with(mesh: &TetrahedronMesh, options: &VolumeOptions) -> (VolumeBuild, Lod) {
-    let build = build_volume(mesh, options, &|_| Continue(())).unwrap();
-    let lod = served(&build.mesh, &build.history, &Provenance::default());
+    let build = build_volume(mesh, options).unwrap();
+    let lod = served(|stream, options| build.write_to(stream, options));
     (build, lod)
 }
 
@@ -62,15 +60,15 @@ fn fields_that_do_not_vary_stay_as_they_are() {
     for constant in constants {
         let bytes = constant.bytes[..constant.stride_bytes()].to_vec();
         let (build, lod) = built(&boxed(vec![constant]));
-        assert!(build.n_fusions > 100 && lod.n_levels() > 10);
+        assert!(build.fusions().n_fusions > 100 && lod.n_levels() > 10);
         for level in 0..lod.n_levels() {
             let mesh = lod.at_level(level).to_volume().unwrap();
             assert!(mesh.attributes[0].bytes.chunks(bytes.len()).all(|value| value == bytes));
         }
-        assert!(build.history.deviations[1].values.iter().all(|&deviation| deviation == 0.0));
+        assert!(build.history().deviations[1].values.iter().all(|&deviation| deviation == 0.0));
     }
     let (build, _) = built(&boxed(vec![]));
-    assert!(build.n_fusions > 100);
+    assert!(build.fusions().n_fusions > 100);
 }
 
 #[test]
@@ -78,7 +76,7 @@ fn fields_without_weight_are_interpolated() {
     let mut options = VolumeOptions::default();
     options.fusion.field_weight = 0.0;
     let (build, lod) = built_with(&box_volume([6; 3]), &options);
-    assert!(build.n_fusions > 100);
+    assert!(build.fusions().n_fusions > 100);
     for values in values_at_all_levels(&lod, "linear") {
         assert!(values.iter().all(|value| (-3.0..=6.0).contains(value)));
     }
@@ -103,8 +101,8 @@ fn whole_numbers_are_those_of_the_input() {
     }
     // Numbers of vertices cannot be right where vertices are gone; where they differ is all that can be said.
     let deviation = |name: &str| {
-        let named = build.history.deviations.iter().find(|deviation| deviation.name == name);
-        [0, 1].map(|step| named.unwrap().values[step * build.n_fusions])
+        let named = build.history().deviations.iter().find(|deviation| deviation.name == name);
+        [0, 1].map(|step| named.unwrap().values[step * build.fusions().n_fusions])
     };
     assert_eq!(deviation("pair"), [0.0, 1.0]);
     assert!([[0.0, 0.0], [0.0, 1.0]].contains(&deviation("label")));
@@ -121,11 +119,11 @@ fn values_that_are_no_numbers_leave_the_others_alone() {
         field("T", ScalarType::F32, 1, |_, p| vec![wave(p)]),
     ]);
     let (build, lod) = built(&mesh);
-    assert_eq!((build.repairs.values_nan, build.repairs.values_infinite), (2 * 49 + 343, 1));
+    assert_eq!((build.repairs().values_nan, build.repairs().values_infinite), (2 * 49 + 343, 1));
     let alone = boxed(vec![field("T", ScalarType::F32, 1, |_, p| vec![wave(p)])]);
     let [deviation, expected] = [&build, &built(&alone).0].map(|build| {
         let last = |name| {
-            build.history.deviations.iter().find(|d| d.name == name).map(|d| d.values[d.values.len() - 1])
+            build.history().deviations.iter().find(|d| d.name == name).map(|d| d.values[d.values.len() - 1])
         };
         ["masked", "none", "vector", "T"].map(|name| last(name).unwrap_or(0.0))
     });
@@ -182,7 +180,7 @@ fn cases_of_fields() {
     }
     let mesh = read("fields_nan.vtu");
     let (build, lod) = built(&mesh);
-    assert!(build.repairs.values_nan > 0);
+    assert!(build.repairs().values_nan > 0);
     let masked: Vec<f64> = mesh.attribute("masked_nan").unwrap().values().filter(|x| x.is_finite()).collect();
     let range =
         masked.iter().fold(f64::MIN, |a, &b| a.max(b)) - masked.iter().fold(f64::MAX, |a, &b| a.min(b));

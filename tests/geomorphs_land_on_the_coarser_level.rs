@@ -9,13 +9,12 @@ use nephrite::geometry::vector::{Vector, add_scaled, distance_sq, widen};
 use nephrite::query::Landing;
 use nephrite::{BuildOptions, Lod, TriangleMesh, generate};
 use std::collections::HashSet;
-use std::ops::ControlFlow::Continue;
 use support::synthetic::{decimate, grid};
 
 fn built(mesh: &TriangleMesh, max_error: Option<f64>) -> Lod {
     let options = BuildOptions { max_error, ..BuildOptions::default() };
-    let build = nephrite::build(mesh, &options, &|_| Continue(())).unwrap();
-    Lod::from_bytes(&support::file_bytes(&build.mesh, &build.history, None)).unwrap()
+    let build = nephrite::build(mesh, &options).unwrap();
+    support::served::served(|stream, options| build.write_to(stream, options))
 }
 
 fn place(lod: &Lod, landing: &Landing) -> Vector {

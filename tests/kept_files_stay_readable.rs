@@ -7,18 +7,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-use nephrite::store::{Provenance, StoreOptions, write_to, write_to_with};
 use nephrite::{
-    Attribute, BuildOptions, Lod, Method, ScalarType, TriangleMesh, VolumeOptions, build, build_volume,
-    generate,
+    Attribute, BuildOptions, JadeOptions, Lod, Placement, ProgressiveMesh, ProgressiveOptions, ScalarType,
+    StoreOptions, TriangleMesh, VolumeOptions, build, build_volume, generate,
 };
 use nephrite_formats::neph::checksum;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::Cursor;
-use std::ops::ControlFlow::Continue;
 use std::path::{Path, PathBuf};
 
 /// A form of file, and a file of that form.
@@ -43,8 +39,8 @@ fn patch() -> TriangleMesh {
 }
 
 fn surface_forms() -> Vec<Form> {
-    let (usual, provenance) = (StoreOptions::default(), Provenance::default());
-    let jade = build(&patch(), &BuildOptions::default(), &|_| Continue(())).unwrap();
+    let usual = StoreOptions::default();
+    let jade = build(patch(), &BuildOptions::default()).unwrap();
     let forms = [
         ("whole-lifetimes", usual),
         ("windows", StoreOptions { window_levels: Some(2), ..usual }),
@@ -56,33 +52,30 @@ fn surface_forms() -> Vec<Form> {
         .iter()
         .map(|(name, options)| {
             let mut stream = Cursor::new(Vec::new());
-            write_to(&mut stream, &jade.mesh, &jade.history, &provenance, options).unwrap();
+            jade.write_to(&mut stream, options).unwrap();
             (*name, stream.into_inner())
         })
         .collect();
-    let moving = BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..BuildOptions::default() };
-    let moved = build(&generate::sphere(2), &moving, &|_| Continue(())).unwrap();
+    let moving = BuildOptions::with(JadeOptions::certified(Placement::Best));
+    let moved = build(generate::sphere(2), &moving).unwrap();
     let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, &moved.mesh, &moved.history, &provenance, &usual).unwrap();
+    moved.write_to(&mut stream, &usual).unwrap();
     files.push(("vertices-born", stream.into_inner()));
-    let collapses = BuildOptions { method: Method::Progressive, ..BuildOptions::default() };
-    let collapsed = build(&patch(), &collapses, &|_| Continue(())).unwrap();
-    let operations = encode(&collapsed).unwrap().bytes;
+    let collapses = BuildOptions::with(ProgressiveOptions::default());
+    let collapsed = build(patch(), &collapses).unwrap();
     let mut stream = Cursor::new(Vec::new());
-    write_to_with(&mut stream, &collapsed.mesh, &collapsed.history, &provenance, &usual, &operations)
-        .unwrap();
+    collapsed.write_to(&mut stream, &StoreOptions { operations: true, ..usual }).unwrap();
     files.push(("operations", stream.into_inner()));
     files
 }
 
 fn volume_forms() -> Vec<Form> {
-    let fused =
-        build_volume(&generate::box_volume([3; 3]), &VolumeOptions::default(), &|_| Continue(())).unwrap();
+    let fused = build_volume(&generate::box_volume([3; 3]), &VolumeOptions::default()).unwrap();
     [("volume", false), ("volume-compact", true)]
         .map(|(name, is_compact)| {
             let options = StoreOptions { is_compact, ..StoreOptions::default() };
             let mut stream = Cursor::new(Vec::new());
-            write_to(&mut stream, &fused.mesh, &fused.history, &Provenance::default(), &options).unwrap();
+            fused.write_to(&mut stream, &options).unwrap();
             (name, stream.into_inner())
         })
         .into()

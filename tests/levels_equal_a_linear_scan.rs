@@ -4,9 +4,9 @@
 
 mod support;
 
+use nephrite::StoreOptions;
 use nephrite::history::{History, Levels, NEVER};
 use nephrite::query::QueryError;
-use nephrite::store::{Provenance, StoreOptions, write_to};
 use nephrite::{Lod, TriangleMesh};
 use proptest::prelude::*;
 use support::synthetic::{Random, decimate, grid, succeed};
@@ -142,7 +142,7 @@ fn tetrahedra_are_stored_like_triangles() {
     }
     let mut stream = std::io::Cursor::new(Vec::new());
     let options = StoreOptions { levels: Some(u32::MAX), ..StoreOptions::default() };
-    write_to(&mut stream, &mesh, &history, &Provenance::default(), &options).unwrap();
+    history.write_to(&mut stream, &mesh, &options).unwrap();
     let lod = Lod::from_bytes(stream.get_ref()).unwrap();
     lod.verify().unwrap();
     assert_eq!(lod.n_corners(), 4);

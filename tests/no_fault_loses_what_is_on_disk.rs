@@ -6,14 +6,11 @@
 
 mod support;
 
-use nephrite::progressive_mesh::encode;
-use nephrite::store::{Provenance, StoreOptions, StoreReport, WriteError, write_in, write_to_with};
-use nephrite::{Build, BuildOptions, Lod, Method, TriangleMesh};
+use nephrite::{Build, BuildOptions, Lod, ProgressiveOptions, StoreOptions, TriangleMesh};
 use nephrite_formats::publish::{Disk, LEFTOVER_PREFIX, LEFTOVER_SUFFIX, Storage, publish_in};
 use nephrite_formats::{MeshError, MeshFormat, PublishError, read_mesh_bytes, write_mesh_to};
 use std::collections::BTreeMap;
 use std::io;
-use std::ops::ControlFlow::Continue;
 use std::path::Path;
 use support::faulty::{Fault, Faulty};
 
@@ -116,45 +113,30 @@ fn assert_all_struck(n_struck: &BTreeMap<&'static str, usize>) {
 #[test]
 fn of_a_build() {
     let mesh = support::synthetic::grid(12);
-    let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
-    check_build(&build, StoreOptions::default(), &[]);
+    let build = nephrite::build(&mesh, &BuildOptions::default()).unwrap();
+    check_build(&build, StoreOptions::default());
 }
 
 #[test]
 fn of_a_build_in_compact_form() {
     let mesh = support::synthetic::grid(5);
-    let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
-    check_build(&build, StoreOptions { is_compact: true, ..StoreOptions::default() }, &[]);
+    let build = nephrite::build(&mesh, &BuildOptions::default()).unwrap();
+    check_build(&build, StoreOptions { is_compact: true, ..StoreOptions::default() });
 }
 
 #[test]
 fn of_a_build_with_operations() {
     let mesh = support::synthetic::grid(5);
-    let options = BuildOptions { method: Method::Progressive, ..BuildOptions::default() };
-    let build = nephrite::build(&mesh, &options, &|_| Continue(())).unwrap();
-    let operations = encode(&build).unwrap().bytes;
-    check_build(&build, StoreOptions::default(), &operations);
+    let options = BuildOptions::with(ProgressiveOptions::default());
+    let build = nephrite::build(&mesh, &options).unwrap();
+    check_build(&build, StoreOptions { operations: true, ..StoreOptions::default() });
 }
 
 /// Writes a build on disks that fail in every way.
-fn check_build(build: &Build, options: StoreOptions, operations: &[u8]) {
-    fn write_build<S: Storage>(
-        disk: &S,
-        path: &Path,
-        fill: impl FnOnce(&mut S::File) -> Result<StoreReport, WriteError>,
-    ) -> Result<(), WriteError> {
-        write_in(disk, path, fill).map(drop)
-    }
-    let provenance = Provenance::default();
-    let (mesh, history) = (&build.mesh, &build.history);
-    let write_badly = |disk: &Faulty, path: &Path| {
-        write_build(disk, path, |file| write_to_with(file, mesh, history, &provenance, &options, operations))
-    };
+fn check_build(build: &Build, options: StoreOptions) {
+    let write_badly = |disk: &Faulty, path: &Path| build.write_in(disk, path, &options).map(drop);
     let write_well = |path: &Path| {
-        write_build(&Disk, path, |file| {
-            write_to_with(file, mesh, history, &provenance, &options, operations)
-        })
-        .unwrap();
+        build.write_in(&Disk, path, &options).unwrap();
         Lod::open(path).unwrap().verify().unwrap();
     };
     assert_all_struck(&strike_every_operation(write_badly, write_well));

@@ -8,19 +8,22 @@
     reason = "a test"
 )]
 
-use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-use nephrite::store::{Provenance, StoreOptions, VerifyError, write_to_with};
-use nephrite::{Bound, Build, BuildOptions, Lod, Method, TriangleMesh, build, generate};
+mod support;
+
+use nephrite::{
+    Build, BuildOptions, Lod, ProgressiveBound, ProgressiveMesh, ProgressiveOptions, StoreOptions,
+    TriangleMesh, VerifyError, build, generate,
+};
+use nephrite_formats::neph::SectionKind;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::io::Cursor;
-use std::ops::ControlFlow;
+use support::damage::with_section;
 
 fn decimate(mesh: &TriangleMesh, pre_split: bool) -> Build {
-    let mut options =
-        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
-    options.progressive.pre_split = pre_split;
-    build(mesh, &options, &|_| ControlFlow::Continue(())).unwrap()
+    let bound = ProgressiveBound::Accumulated;
+    let options = ProgressiveOptions { bound, pre_split, ..ProgressiveOptions::default() };
+    build(mesh, &BuildOptions::with(options)).unwrap()
 }
 
 /// Triangles as the bits of the positions of their corners, independent of vertex numbers.
@@ -30,6 +33,11 @@ fn shape(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[[u32; 3]; 3]> {
         triangles.iter().map(|corners| [0, 1, 2].map(|i: usize| bits(&corners[i]))).collect();
     shape.sort_unstable();
     shape
+}
+
+/// The triangles that the build began with.
+fn input(build: &Build) -> Vec<[[u32; 3]; 3]> {
+    shape(build.vertices().positions, &build.history().alive(0).collect::<Vec<_>>())
 }
 
 fn samples() -> Vec<Build> {
@@ -44,10 +52,10 @@ fn samples() -> Vec<Build> {
 #[test]
 fn everything_comes_back_bit_by_bit() {
     for build in samples() {
-        let mut mesh = ProgressiveMesh::from_bytes(&encode(&build).unwrap().bytes).unwrap();
+        let mut mesh = ProgressiveMesh::from_bytes(&build.operations().unwrap().bytes).unwrap();
         assert!(mesh.is_whole() && mesh.triangles().is_empty() && mesh.positions().is_empty());
         mesh.refine(usize::MAX);
-        let expected = shape(&build.mesh.positions, &build.mesh.triangles);
+        let expected = input(&build);
         assert_eq!(shape(mesh.positions(), mesh.triangles()), expected);
         mesh.coarsen(usize::MAX);
         assert!(mesh.triangles().is_empty() && mesh.positions().is_empty());
@@ -57,8 +65,8 @@ fn everything_comes_back_bit_by_bit() {
 #[test]
 fn any_count_is_met_with_one_operation_of_slack() {
     for build in samples() {
-        let mut mesh = ProgressiveMesh::from_bytes(&encode(&build).unwrap().bytes).unwrap();
-        let n_in = build.mesh.triangles.len();
+        let mut mesh = ProgressiveMesh::from_bytes(&build.operations().unwrap().bytes).unwrap();
+        let n_in = build.history().n_alive(0);
         for n in (0..=n_in).rev().chain([n_in / 2, 3, n_in]) {
             let found = mesh.to_triangles(n);
             assert!(found <= n && found + 2 > n, "{found} for {n}");
@@ -73,7 +81,7 @@ fn any_count_is_met_with_one_operation_of_slack() {
 
 #[test]
 fn streams_cut_anywhere_give_what_there_is() {
-    let encoded = encode(&decimate(&generate::torus(24, 16), false)).unwrap();
+    let encoded = decimate(&generate::torus(24, 16), false).operations().unwrap();
     let mut whole = ProgressiveMesh::from_bytes(&encoded.bytes).unwrap();
     let mut growing = ProgressiveMesh::new();
     for (at, byte) in encoded.bytes.iter().enumerate() {
@@ -91,7 +99,7 @@ fn streams_cut_anywhere_give_what_there_is() {
 
 #[test]
 fn streams_are_half_as_long_as_indices_and_positions() {
-    let encoded = encode(&decimate(&generate::torus(120, 60), false)).unwrap();
+    let encoded = decimate(&generate::torus(120, 60), false).operations().unwrap();
     let standard = 36 * 120 * 60;
     let (plain, coded) = (encoded.plain_bytes, encoded.bytes.len());
     assert!(plain * 9 <= standard * 8, "{plain} of {standard}");
@@ -101,22 +109,25 @@ fn streams_are_half_as_long_as_indices_and_positions() {
 /// The result of verifying a file with these operations.
 fn verify_with(build: &Build, operations: &[u8]) -> Result<(), VerifyError> {
     let mut file = Cursor::new(Vec::new());
-    let (provenance, options) = (Provenance::default(), StoreOptions::default());
-    write_to_with(&mut file, &build.mesh, &build.history, &provenance, &options, operations).unwrap();
-    Lod::from_bytes(&file.into_inner()).unwrap().verify()
+    build.write_to(&mut file, &StoreOptions::default()).unwrap();
+    let file = with_section(file.get_ref(), SectionKind::Operations, operations);
+    Lod::from_bytes(&file).unwrap().verify()
 }
 
 #[test]
 fn files_are_verified_to_hold_operations_that_build_their_input() {
     for build in samples() {
-        let operations = encode(&build).unwrap().bytes;
+        let operations = build.operations().unwrap().bytes;
+        let mut file = Cursor::new(Vec::new());
+        build.write_to(&mut file, &StoreOptions { operations: true, ..StoreOptions::default() }).unwrap();
+        Lod::from_bytes(file.get_ref()).unwrap().verify().unwrap();
         verify_with(&build, &operations).unwrap();
         let cut = &operations[..operations.len() - 1];
         assert!(matches!(verify_with(&build, cut), Err(VerifyError::OperationCount { found: 0.., .. })));
         let mut damaged = operations.clone();
         damaged[operations.len() - 1] ^= 1;
         assert!(matches!(verify_with(&build, &damaged), Err(VerifyError::Operations(_))));
-        let other = encode(&decimate(&generate::torus(9, 5), false)).unwrap().bytes;
+        let other = decimate(&generate::torus(9, 5), false).operations().unwrap().bytes;
         let found = verify_with(&build, &other);
         assert!(matches!(found, Err(VerifyError::OperationsMesh { found: 0, .. })), "{found:?}");
     }
@@ -125,7 +136,7 @@ fn files_are_verified_to_hold_operations_that_build_their_input() {
 proptest! {
     #[test]
     fn random_walks_lead_to_the_same_meshes(moves in prop::collection::vec((any::<bool>(), 0_usize..90), 1..60)) {
-        let encoded = encode(&decimate(&generate::plate(2, 1, 8), true)).unwrap();
+        let encoded = decimate(&generate::plate(2, 1, 8), true).operations().unwrap();
         let mut mesh = ProgressiveMesh::from_bytes(&encoded.bytes).unwrap();
         for (forward, n) in moves {
             if forward { mesh.refine(n) } else { mesh.coarsen(n) };
@@ -138,7 +149,7 @@ proptest! {
 
     #[test]
     fn damaged_bytes_end_in_an_error_or_a_mesh(at in 0_usize..4000, byte in any::<u8>(), reseal in any::<bool>()) {
-        let mut bytes = encode(&decimate(&generate::torus(12, 8), false)).unwrap().bytes;
+        let mut bytes = decimate(&generate::torus(12, 8), false).operations().unwrap().bytes;
         let at = at % bytes.len();
         bytes[at] = byte;
         if reseal && at >= 28 {
@@ -168,9 +179,9 @@ fn an_edge_of_many_faces_comes_back() {
             mesh.triangles.push([0, 1, page + 2]);
         }
         let build = decimate(&mesh, false);
-        let mut played = ProgressiveMesh::from_bytes(&encode(&build).unwrap().bytes).unwrap();
+        let mut played = ProgressiveMesh::from_bytes(&build.operations().unwrap().bytes).unwrap();
         played.refine(usize::MAX);
-        let expected = shape(&build.mesh.positions, &build.mesh.triangles);
+        let expected = input(&build);
         assert_eq!(shape(played.positions(), played.triangles()), expected, "{n_faces} faces");
     }
 }

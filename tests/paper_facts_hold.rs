@@ -5,10 +5,19 @@
 mod engine;
 
 use engine::{alive_at, build_all};
-use nephrite::{Bound, BuildOptions, History, TriangleMesh, bounding_diagonal, generate};
+use nephrite::{BuildOptions, EstimateKind, History, JadeOptions, TriangleMesh, bounding_diagonal, generate};
 
-fn build_with(mesh: &TriangleMesh, bound: Bound) -> History {
-    build_all(mesh, &BuildOptions { bound, ..BuildOptions::default() }).history
+fn build_with(mesh: &TriangleMesh, options: &BuildOptions) -> History {
+    build_all(mesh, options).history().clone()
+}
+
+fn estimated(mesh: &TriangleMesh, kind: EstimateKind) -> History {
+    build_with(mesh, &BuildOptions::with(JadeOptions::estimate(kind)))
+}
+
+/// By the proof, and by the paper's cautious estimate.
+fn proven_and_joint() -> [BuildOptions; 2] {
+    [BuildOptions::default(), BuildOptions::with(JadeOptions::estimate(EstimateKind::Joint))]
 }
 
 /// Triangles of the coarsest step whose error is within `percent` of the diagonal.
@@ -27,8 +36,8 @@ fn accumulation_overestimates_on_a_zigzag_and_removed_vertices_do_not() {
     let profile: Vec<[f64; 2]> = (0..64).map(|i| [f64::from(i), f64::from(i % 2)]).collect();
     let ribbon = generate::ribbon(&profile, 40.0);
     let percent = 100.0 * (1.0 + 1e-6) / bounding_diagonal(&ribbon);
-    let [removed, accumulated] = [Bound::Removed, Bound::Accumulated]
-        .map(|bound| triangles_at(&ribbon, &build_with(&ribbon, bound), percent));
+    let [removed, accumulated] = [EstimateKind::Removed, EstimateKind::Accumulated]
+        .map(|kind| triangles_at(&ribbon, &estimated(&ribbon, kind), percent));
     assert!(removed <= 8, "removed vertices keep {removed}");
     assert!(accumulated > 2 * removed, "accumulation keeps {accumulated}, removed vertices {removed}");
 }
@@ -39,8 +48,9 @@ fn accumulation_overestimates_on_a_zigzag_and_removed_vertices_do_not() {
 fn the_joint_estimate_is_the_cautious_one() {
     let mesh = generate::cosine(60);
     for percent in [0.2, 1.0] {
-        let [joint, accumulated, removed] = [Bound::Joint, Bound::Accumulated, Bound::Removed]
-            .map(|bound| triangles_at(&mesh, &build_with(&mesh, bound), percent) as f64);
+        let [joint, accumulated, removed] =
+            [EstimateKind::Joint, EstimateKind::Accumulated, EstimateKind::Removed]
+                .map(|kind| triangles_at(&mesh, &estimated(&mesh, kind), percent) as f64);
         assert!(joint >= 0.9 * removed.max(accumulated), "{percent} %: {joint}, {removed}, {accumulated}");
     }
 }
@@ -51,8 +61,8 @@ fn the_joint_estimate_is_the_cautious_one() {
 fn the_history_of_the_cosine_surface_stays_below_three_times_the_input() {
     let mesh = generate::cosine(120);
     assert_eq!((mesh.positions.len(), mesh.triangles.len()), (14_400, 28_322));
-    for bound in [Bound::Certified, Bound::Joint] {
-        let history = build_with(&mesh, bound);
+    for options in proven_and_joint() {
+        let (history, bound) = (build_with(&mesh, &options), options.bound());
         let ratio = history.simplices.len() as f64 / mesh.triangles.len() as f64;
         assert!((2.0..3.0).contains(&ratio), "{bound:?}: {ratio}");
     }
@@ -63,8 +73,9 @@ fn the_history_of_the_cosine_surface_stays_below_three_times_the_input() {
 #[test]
 fn the_cosine_surface_needs_no_more_triangles_than_in_the_paper() {
     let mesh = generate::cosine(120);
-    for bound in [Bound::Certified, Bound::Joint] {
-        let found = triangles_at(&mesh, &build_with(&mesh, bound), 0.535);
+    for options in proven_and_joint() {
+        let (history, bound) = (build_with(&mesh, &options), options.bound());
+        let found = triangles_at(&mesh, &history, 0.535);
         assert!(found <= 412, "{bound:?}: {found}");
     }
 }

@@ -10,22 +10,22 @@
     reason = "a test"
 )]
 
-use nephrite::decimate::progressive::events::EventKind;
 use nephrite::generate::Drilling;
-use nephrite::history::NEVER;
-use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build, generate};
-use std::ops::ControlFlow;
+use nephrite::{
+    Build, BuildOptions, EventKind, NEVER, ProgressiveBound, ProgressiveOptions, TriangleMesh, build,
+    generate,
+};
 use std::path::{Path, PathBuf};
 
 #[path = "support/every_step.rs"]
 #[allow(unreachable_pub, reason = "shared")]
 mod every_step;
 
-fn decimate(mesh: &TriangleMesh, change: impl FnOnce(&mut BuildOptions)) -> Build {
+fn decimate(mesh: &TriangleMesh, change: impl FnOnce(&mut ProgressiveOptions)) -> Build {
     let mut options =
-        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
+        ProgressiveOptions { bound: ProgressiveBound::Accumulated, ..ProgressiveOptions::default() };
     change(&mut options);
-    build(mesh, &options, &|_| ControlFlow::Continue(())).unwrap()
+    build(mesh, &BuildOptions::with(options)).unwrap()
 }
 
 fn check(name: &str, build: &Build) {
@@ -45,9 +45,9 @@ fn surfaces_of_every_topology_go_down_to_nothing() {
     ];
     for (name, mesh) in meshes {
         for pre_split in [false, true] {
-            check(name, &decimate(&mesh, |options| options.progressive.pre_split = pre_split));
+            check(name, &decimate(&mesh, |options| options.pre_split = pre_split));
         }
-        check(name, &decimate(&mesh, |options| options.bound = Bound::Certified));
+        check(name, &decimate(&mesh, |options| options.bound = ProgressiveBound::Certified));
     }
 }
 
@@ -63,7 +63,8 @@ fn no_star_grows_over_a_flat_part() {
         triangles: slivers.collect(),
         ..TriangleMesh::default()
     };
-    let history = decimate(&mesh, |_| {}).history;
+    let history = decimate(&mesh, |_| {});
+    let history = history.history();
     for percent in (5..100).step_by(5) {
         let step = (history.errors.len() * percent / 100) as u32;
         let lives = history.birth.iter().zip(&history.death);
@@ -85,7 +86,7 @@ fn vertices_judged_many_at_once_leave_the_same_on_any_number_of_threads() {
         };
         let alone = on(1);
         check("large", &alone);
-        assert!(alone.history == on(3).history && alone.passage == on(5).passage);
+        assert!(alone.history() == on(3).history() && alone.progressive() == on(5).progressive());
     }
 }
 
@@ -130,8 +131,8 @@ fn a_reduction_is_met_within_one_operation() {
     let n = mesh.triangles.len() as f64;
     for percent in 0..=100 {
         let reduction = f64::from(percent) / 100.0;
-        let build = decimate(&mesh, |options| options.progressive.reduction = Some(reduction));
-        let left = build.history.death.iter().filter(|&&death| death == NEVER).count() as f64;
+        let build = decimate(&mesh, |options| options.reduction = Some(reduction));
+        let left = build.history().death.iter().filter(|&&death| death == NEVER).count() as f64;
         let wished = (n * (1.0 - reduction)).floor();
         assert!(left <= wished && left + 2.0 > wished, "{left} for {wished}");
     }
@@ -139,7 +140,7 @@ fn a_reduction_is_met_within_one_operation() {
 
 /// Triangles of the first step with at most `n` of them.
 fn first_with_at_most(build: &Build, n: usize) -> Vec<[u32; 3]> {
-    let history = &build.history;
+    let history = build.history();
     let alive = |step: u32| {
         let lifetimes = history.birth.iter().zip(&history.death).zip(&history.simplices);
         let alive = lifetimes.filter(move |((birth, death), _)| **birth <= step && step < **death);
@@ -159,7 +160,7 @@ fn first_with_at_most(build: &Build, n: usize) -> Vec<[u32; 3]> {
 fn by_face(build: &Build, triangles: &[[u32; 3]]) -> [usize; 3] {
     let mut counts = [0; 3];
     for triangle in triangles {
-        let heights = triangle.map(|v| build.mesh.positions[v as usize][2]);
+        let heights = triangle.map(|v| build.vertices().positions[v as usize][2]);
         let face = if heights[0] != heights[1] || heights[1] != heights[2] {
             2
         } else {
@@ -180,10 +181,10 @@ fn the_papers_plate_and_shell_reach_its_reductions() {
         for pre_split in [false, true] {
             for reduction in [0.5, 0.75, 0.9, 1.0] {
                 let build = decimate(&mesh, |options| {
-                    options.progressive.reduction = Some(reduction);
-                    options.progressive.pre_split = pre_split;
+                    options.reduction = Some(reduction);
+                    options.pre_split = pre_split;
                 });
-                let left = build.history.death.iter().filter(|&&death| death == NEVER).count() as f64;
+                let left = build.history().death.iter().filter(|&&death| death == NEVER).count() as f64;
                 let wished = (mesh.triangles.len() as f64 * (1.0 - reduction)).floor();
                 assert!(left <= wished && left + 2.0 > wished, "{name}: {left} for {wished}");
             }
@@ -195,16 +196,16 @@ fn the_papers_plate_and_shell_reach_its_reductions() {
 fn both_faces_of_a_split_plate_outlive_its_holes() {
     for drilling in [Drilling::PLATE, Drilling::WASHER, Drilling::of_every_square(3, 2, 16)] {
         let mesh = generate::drilled_plate(&drilling);
-        let build = decimate(&mesh, |options| options.progressive.pre_split = true);
-        let passage = build.passage.as_ref().unwrap();
+        let build = decimate(&mesh, |options| options.pre_split = true);
+        let report = build.progressive().unwrap();
         let n_rims = 2 * drilling.holes as usize;
-        assert!(passage.events.count(EventKind::HoleClosed) >= n_rims, "{:?}", passage.counts);
+        assert!(report.events.count(EventKind::HoleClosed) >= n_rims, "{:?}", report.counts);
         let last = first_with_at_most(&build, 4);
         assert_eq!(by_face(&build, &last), [2, 2, 0], "{drilling:?}");
         // Each face is a square again, with its corners at the corners of the plate.
         let size = [drilling.columns, drilling.rows].map(|n| 10.0 * n as f32);
         for triangle in last {
-            for [x, y, _] in triangle.map(|v| build.mesh.positions[v as usize]) {
+            for [x, y, _] in triangle.map(|v| build.vertices().positions[v as usize]) {
                 assert!(
                     [0.0, size[0]].contains(&x) && [0.0, size[1]].contains(&y),
                     "{x} {y} of {drilling:?}"
@@ -216,14 +217,14 @@ fn both_faces_of_a_split_plate_outlive_its_holes() {
 
 #[test]
 fn certified_levels_come_first_and_end_where_the_topology_changes() {
-    let sphere = decimate(&generate::sphere(8), |options| options.bound = Bound::Certified);
-    let passage = sphere.passage.unwrap();
-    let n_steps = sphere.history.errors.len() as u32;
-    assert!(passage.n_certified_steps > n_steps / 2, "{} of {n_steps}", passage.n_certified_steps);
-    let first_event = passage.events.events.first().unwrap();
-    assert!(passage.n_certified_steps <= first_event.step);
+    let sphere = decimate(&generate::sphere(8), |options| options.bound = ProgressiveBound::Certified);
+    let report = sphere.progressive().unwrap();
+    let n_steps = sphere.history().errors.len() as u32;
+    assert!(report.n_certified_steps > n_steps / 2, "{} of {n_steps}", report.n_certified_steps);
+    let first_event = report.events.events.first().unwrap();
+    assert!(report.n_certified_steps <= first_event.step);
     let estimated = decimate(&generate::sphere(8), |_| {});
-    assert_eq!(estimated.passage.unwrap().n_certified_steps, 0);
+    assert_eq!(estimated.progressive().unwrap().n_certified_steps, 0);
 }
 
 #[test]

@@ -7,9 +7,7 @@
 mod support;
 
 use nephrite::Lod;
-use nephrite::history::History;
-use nephrite::store::{Provenance, StoreOptions, WriteError, check_attributes, write, write_to};
-use nephrite::{ScalarType, TriangleMesh};
+use nephrite::{History, ScalarType, StoreOptions, StreamError, TriangleMesh, WriteError, check_attributes};
 use std::fs;
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -22,7 +20,7 @@ fn surface() -> (TriangleMesh, History<3>) {
 }
 
 fn publish(path: &Path, mesh: &TriangleMesh, history: &History<3>) -> Result<(), WriteError> {
-    write(path, mesh, history, &Provenance::default(), &StoreOptions::default()).map(|_| ())
+    history.write(path, mesh, &StoreOptions::default()).map(drop)
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -151,7 +149,7 @@ fn a_stream_that_fails_at_any_operation_gives_its_error() {
     let whole = support::file_bytes(&mesh, &history, None);
     for n_good in 0.. {
         let mut stream = Failing { inner: Cursor::new(Vec::new()), n_good };
-        match write_to(&mut stream, &mesh, &history, &Provenance::default(), &StoreOptions::default()) {
+        match history.write_to(&mut stream, &mesh, &StoreOptions::default()) {
             Err(WriteError::Stream(error)) => {
                 assert_eq!(error.kind(), io::ErrorKind::StorageFull);
                 // The head is written last: until then the file does not open, unless only a flush
@@ -176,7 +174,7 @@ fn input_that_does_not_fit_is_refused_with_its_error() {
         let mut mesh = mesh.clone();
         edit(&mut mesh);
         let (stream, options) = (&mut Cursor::new(Vec::new()), StoreOptions::default());
-        let error = write_to(stream, &mesh, &history, &Provenance::default(), &options).unwrap_err();
+        let error = history.write_to(stream, &mesh, &options).unwrap_err();
         // Already known before a build.
         let is_of_attributes =
             matches!(error, WriteError::Attribute { .. } | WriteError::TooManyAttributes { .. });
@@ -214,10 +212,9 @@ fn input_that_does_not_fit_is_refused_with_its_error() {
     let long = |m: &mut TriangleMesh| m.attributes[0].name = "x".repeat(70_000);
     assert!(matches!(refused(long), WriteError::TooManyAttributes { what: "bytes of attribute names", .. }));
 
-    let provenance = Provenance { method: "m".repeat(2 << 20), ..Provenance::default() };
-    let error =
-        write_to(&mut Cursor::new(Vec::new()), &mesh, &history, &provenance, &StoreOptions::default());
-    assert!(matches!(error, Err(WriteError::MetadataBytes { .. })));
+    let wanted = StoreOptions { operations: true, ..StoreOptions::default() };
+    let error = history.write_to(&mut Cursor::new(Vec::new()), &mesh, &wanted);
+    assert!(matches!(error, Err(WriteError::Operations(StreamError::NoOperations))));
 }
 
 #[test]

@@ -53,10 +53,10 @@ fn place(v: u32) -> u32 {
 #[test]
 fn a_texture_seam_stays_closed_and_each_side_keeps_its_vertices() {
     let build = build_all(&textured_tube(), &BuildOptions::default());
-    let last = build.history.errors.len() as u32 - 1;
-    assert!(alive_at(&build.history, last).len() < 60, "stuck at {}", alive_at(&build.history, last).len());
-    for step in spread_steps(&build.history, 40) {
-        let triangles = alive_at(&build.history, step);
+    let last = build.history().errors.len() as u32 - 1;
+    assert!(alive_at(build.history(), last).len() < 60, "stuck at {}", alive_at(build.history(), last).len());
+    for step in spread_steps(build.history(), 40) {
+        let triangles = alive_at(build.history(), step);
         let places: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(place)).collect();
         let rim = |v: u32| (v / (COLUMNS + 1)).is_multiple_of(ROWS);
         for ([a, b], n_faces) in edge_faces(&places) {
@@ -94,6 +94,6 @@ fn normals_of_flat_shading_do_not_stop_the_simplification() {
     }
     flat.attributes.push(attribute("normal", 3, &normals));
     let build = build_all(&flat, &BuildOptions::default());
-    let coarsest = alive_at(&build.history, build.history.errors.len() as u32 - 1);
+    let coarsest = alive_at(build.history(), build.history().errors.len() as u32 - 1);
     assert!(coarsest.len() < 60, "stuck at {}", coarsest.len());
 }

@@ -7,16 +7,11 @@
 
 mod support;
 
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::decimate::progressive::ProgressiveOptions;
-use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-use nephrite::reprove::ErrorTable;
-use nephrite::store::Provenance;
 use nephrite::{
-    Attribute, Bound, BuildOptions, Method, ScalarType, TriangleMesh, VolumeOptions, build, build_volume,
+    Attribute, Bound, BuildOptions, ErrorTable, EstimateKind, JadeOptions, Placement, ProgressiveBound,
+    ProgressiveMesh, ProgressiveOptions, ScalarType, TriangleMesh, VolumeOptions, build, build_volume,
     generate,
 };
-use std::ops::ControlFlow::Continue;
 use support::on_this_thread;
 use support::served::served;
 
@@ -41,36 +36,29 @@ fn crooked() -> TriangleMesh {
 #[test]
 fn by_removals_and_by_collapses() {
     let _pool = on_this_thread();
-    let usual = BuildOptions::default();
-    let collapses = |bound, pre_split| BuildOptions {
-        method: Method::Progressive,
-        bound,
-        progressive: ProgressiveOptions { pre_split, ..ProgressiveOptions::default() },
-        ..usual
+    let collapses = |bound, pre_split| {
+        BuildOptions::with(ProgressiveOptions { bound, pre_split, ..ProgressiveOptions::default() })
     };
     let ways = [
-        usual,
-        BuildOptions { bound: Bound::Joint, ..usual },
-        BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..usual },
-        collapses(Bound::Certified, false),
-        collapses(Bound::Accumulated, true),
+        BuildOptions::default(),
+        BuildOptions::with(JadeOptions::estimate(EstimateKind::Joint)),
+        BuildOptions::with(JadeOptions::certified(Placement::Best)),
+        collapses(ProgressiveBound::Certified, false),
+        collapses(ProgressiveBound::Accumulated, true),
     ];
     for options in &ways {
-        let built = build(&crooked(), options, &|_| Continue(())).unwrap();
-        let bound = format!("{:?}", options.bound).to_lowercase();
-        let n_certified = built.n_certified_triangles().map(|n| n as u64);
-        let provenance = Provenance { bound, certified_simplices: n_certified, ..Provenance::default() };
-        let lod = served(&built.mesh, &built.history, &provenance);
+        let built = build(crooked(), options).unwrap();
+        let lod = served(|stream, stored| built.write_to(stream, stored));
         assert!(lod.n_levels() > 2, "{options:?}");
-        if options.bound == Bound::Certified {
+        if options.bound() == Bound::Certified {
             let table = ErrorTable::new(&lod).unwrap();
             table.prove(table.last_certified()).unwrap();
         }
-        if built.passage.is_some() {
+        if built.progressive().is_some() {
             let mut played = ProgressiveMesh::new();
-            played.append(&encode(&built).unwrap().bytes).unwrap();
+            played.append(&built.operations().unwrap().bytes).unwrap();
             played.refine(usize::MAX);
-            assert_eq!(played.triangles().len(), built.mesh.triangles.len());
+            assert_eq!(played.triangles().len(), built.history().n_alive(0));
         }
     }
 }
@@ -78,9 +66,8 @@ fn by_removals_and_by_collapses() {
 #[test]
 fn by_fusions() {
     let _pool = on_this_thread();
-    let built =
-        build_volume(&generate::box_volume([2; 3]), &VolumeOptions::default(), &|_| Continue(())).unwrap();
-    let lod = served(&built.mesh, &built.history, &Provenance::default());
+    let built = build_volume(&generate::box_volume([2; 3]), &VolumeOptions::default()).unwrap();
+    let lod = served(|stream, stored| built.write_to(stream, stored));
     assert!(lod.n_levels() > 1);
     for level in 0..lod.n_levels() {
         lod.at_level(level).to_volume().unwrap().check().unwrap();

@@ -3,21 +3,16 @@
 mod engine;
 
 use engine::build_all;
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::{Bound, BuildOptions, generate};
+use nephrite::{BuildOptions, EstimateKind, JadeOptions, Placement, generate};
 
 #[test]
 fn one_two_and_seven_threads_agree() {
-    let with = |bound, placement| BuildOptions {
-        bound,
-        jade: JadeOptions::of_placement(placement),
-        ..BuildOptions::default()
-    };
-    for options in [
-        with(Bound::Certified, Placement::Original),
-        with(Bound::Certified, Placement::Best),
-        with(Bound::Joint, Placement::Original),
+    for jade in [
+        JadeOptions::certified(Placement::Original),
+        JadeOptions::certified(Placement::Best),
+        JadeOptions::estimate(EstimateKind::Joint),
     ] {
+        let options = BuildOptions::with(jade);
         let mesh = generate::cosine(50);
         let on_threads = |n_threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();

@@ -4,9 +4,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::cast_precision_loss, reason = "coordinates below 2^24")]
 
-use nephrite::decimate::progressive::ProgressiveOptions;
-use nephrite::{Bound, BuildOptions, Method, TriangleMesh, build};
-use std::ops::ControlFlow::Continue;
+use nephrite::{
+    BuildOptions, EstimateKind, JadeOptions, ProgressiveBound, ProgressiveOptions, TriangleMesh, build,
+};
 use watchdog::Watchdog;
 
 #[path = "support/watchdog.rs"]
@@ -25,8 +25,8 @@ fn of_a_million_components() {
         ..TriangleMesh::default()
     };
     let _watchdog = Watchdog::over("a million components");
-    let built = build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
-    assert_eq!(built.mesh.triangles.len(), mesh.triangles.len());
+    let built = build(&mesh, &BuildOptions::default()).unwrap();
+    assert_eq!(built.history().n_alive(0), mesh.triangles.len());
 }
 
 /// The triangles from a hub to a ring of `n` vertices, which `place` positions by their angle and
@@ -51,17 +51,15 @@ fn of_a_star_of_a_hundred_thousand_triangles() {
         let radius = 1.0 + 0.3 * noise(i);
         [radius * angle.cos(), radius * angle.sin(), 1.0 + 0.2 * noise(i + 7)]
     });
-    let progressive = |pre_split| BuildOptions {
-        method: Method::Progressive,
-        bound: Bound::Accumulated,
-        progressive: ProgressiveOptions { pre_split, ..ProgressiveOptions::default() },
-        ..BuildOptions::default()
+    let progressive = |pre_split| {
+        let bound = ProgressiveBound::Accumulated;
+        BuildOptions::with(ProgressiveOptions { bound, pre_split, ..ProgressiveOptions::default() })
     };
     let ways = [BuildOptions::default(), progressive(false), progressive(true)];
     for (shape, mesh) in [("disk", disk), ("cone", cone), ("rugged cone", rugged)] {
         for options in &ways {
-            let _watchdog = Watchdog::over(format_args!("{shape}, {:?}", options.method));
-            build(&mesh, options, &|_| Continue(())).unwrap();
+            let _watchdog = Watchdog::over(format_args!("{shape}, {:?}", options.method()));
+            build(&mesh, options).unwrap();
         }
     }
 }
@@ -74,8 +72,10 @@ fn of_the_largest_coordinates() {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (random >> 8) % below
     };
-    let ways = [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated]
-        .map(|bound| BuildOptions { bound, ..BuildOptions::default() });
+    let estimate = |kind| BuildOptions::with(JadeOptions::estimate(kind));
+    let [joint, removed, accumulated] =
+        [EstimateKind::Joint, EstimateKind::Removed, EstimateKind::Accumulated].map(estimate);
+    let ways = [BuildOptions::default(), joint, removed, accumulated];
     for i in 0..400 {
         let mesh = TriangleMesh {
             positions: (0..N_VERTICES)
@@ -85,6 +85,6 @@ fn of_the_largest_coordinates() {
             ..TriangleMesh::default()
         };
         let _watchdog = Watchdog::over(format_args!("soup {i} of the largest coordinates"));
-        ways.iter().for_each(|options| _ = build(&mesh, options, &|_| Continue(())).unwrap());
+        ways.iter().for_each(|options| _ = build(&mesh, options).unwrap());
     }
 }

@@ -6,8 +6,10 @@
 
 mod engine;
 
-use engine::{alive_at, boundary_loops, build_all, edge_faces, euler_characteristic, spread_steps};
-use nephrite::{Bound, BuildOptions, TriangleMesh, generate};
+use engine::{
+    alive_at, boundary_loops, build_all, edge_faces, euler_characteristic, every_bound, spread_steps,
+};
+use nephrite::{BuildOptions, TriangleMesh, generate};
 
 fn closed_surfaces() -> Vec<(&'static str, TriangleMesh, i64)> {
     vec![
@@ -19,19 +21,18 @@ fn closed_surfaces() -> Vec<(&'static str, TriangleMesh, i64)> {
     ]
 }
 
-fn bounds() -> [Bound; 4] {
-    [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated]
-}
-
 #[test]
 fn closed_manifolds_stay_closed_and_keep_their_euler_characteristic() {
     for (name, mesh, expected) in closed_surfaces() {
-        for bound in bounds() {
-            let build = build_all(&mesh, &BuildOptions { bound, ..BuildOptions::default() });
-            let n_steps = build.history.errors.len() - 1;
-            assert!(n_steps > build.mesh.positions.len() / 2, "{name}, {bound:?}: only {n_steps} steps");
-            for step in spread_steps(&build.history, 40) {
-                let triangles = alive_at(&build.history, step);
+        for options in every_bound() {
+            let (build, bound) = (build_all(&mesh, &options), options.bound());
+            let n_steps = build.history().errors.len() - 1;
+            assert!(
+                n_steps > build.vertices().positions.len() / 2,
+                "{name}, {bound:?}: only {n_steps} steps"
+            );
+            for step in spread_steps(build.history(), 40) {
+                let triangles = alive_at(build.history(), step);
                 let faces = edge_faces(&triangles);
                 assert!(faces.values().all(|&n| n == 2), "{name}, {bound:?}, step {step}: not closed");
                 assert_eq!(euler_characteristic(&triangles), expected, "{name}, {bound:?}, step {step}");
@@ -44,10 +45,10 @@ fn closed_manifolds_stay_closed_and_keep_their_euler_characteristic() {
 fn bounded_surfaces_keep_their_boundary_loops() {
     let open = [("cosine", generate::cosine(40), 1, 1), ("moebius", generate::moebius(60, 6), 1, 0)];
     for (name, mesh, loops, euler) in open {
-        for bound in bounds() {
-            let build = build_all(&mesh, &BuildOptions { bound, ..BuildOptions::default() });
-            for step in spread_steps(&build.history, 40) {
-                let triangles = alive_at(&build.history, step);
+        for options in every_bound() {
+            let (build, bound) = (build_all(&mesh, &options), options.bound());
+            for step in spread_steps(build.history(), 40) {
+                let triangles = alive_at(build.history(), step);
                 assert!(edge_faces(&triangles).values().all(|&n| n <= 2), "{name}, {bound:?}, step {step}");
                 assert_eq!(boundary_loops(&triangles), loops, "{name}, {bound:?}, step {step}");
                 assert_eq!(euler_characteristic(&triangles), euler, "{name}, {bound:?}, step {step}");
@@ -60,24 +61,24 @@ fn bounded_surfaces_keep_their_boundary_loops() {
 fn step_zero_is_the_input() {
     for (name, mesh, _) in closed_surfaces() {
         let build = build_all(&mesh, &BuildOptions::default());
-        let mut found = alive_at(&build.history, 0);
+        let mut found = alive_at(build.history(), 0);
         let mut expected = mesh.triangles.clone();
         found.sort_unstable();
         expected.sort_unstable();
         assert_eq!(found, expected, "{name}");
-        assert_eq!(build.mesh.positions, mesh.positions, "{name}");
-        assert_eq!(build.history.errors[0], 0.0);
+        assert_eq!(build.vertices().positions, mesh.positions, "{name}");
+        assert_eq!(build.history().errors[0], 0.0);
     }
 }
 
 #[test]
 fn triangles_use_vertices_that_are_alive_and_every_other_vertex_is_gone() {
     let build = build_all(&generate::torus(40, 20), &BuildOptions::default());
-    for step in spread_steps(&build.history, 40) {
+    for step in spread_steps(build.history(), 40) {
         let used: std::collections::BTreeSet<u32> =
-            alive_at(&build.history, step).into_iter().flatten().collect();
+            alive_at(build.history(), step).into_iter().flatten().collect();
         let alive =
-            (0..).zip(&build.history.vertex_death).filter(|&(_, &death)| death > step).map(|(v, _)| v);
+            (0..).zip(&build.history().vertex_death).filter(|&(_, &death)| death > step).map(|(v, _)| v);
         assert!(alive.eq(used), "step {step}");
     }
 }
@@ -111,10 +112,10 @@ fn non_manifold_input_keeps_its_complex_vertices() {
     }
     let build = build_all(&mesh, &BuildOptions::default());
     assert!(
-        build.history.vertex_death[..rows as usize].iter().all(|&death| death == nephrite::history::NEVER)
+        build.history().vertex_death[..rows as usize].iter().all(|&death| death == nephrite::history::NEVER)
     );
-    let last = (build.history.errors.len() - 1) as u32;
-    assert!(alive_at(&build.history, last).len() < mesh.triangles.len() / 3);
+    let last = (build.history().errors.len() - 1) as u32;
+    assert!(alive_at(build.history(), last).len() < mesh.triangles.len() / 3);
     let three_faces = |triangles: &[[u32; 3]]| edge_faces(triangles).values().filter(|&&n| n == 3).count();
-    assert_eq!(three_faces(&alive_at(&build.history, last)), rows as usize - 1);
+    assert_eq!(three_faces(&alive_at(build.history(), last)), rows as usize - 1);
 }

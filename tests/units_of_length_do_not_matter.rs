@@ -2,13 +2,12 @@
 #![allow(clippy::cast_possible_truncation, reason = "coordinates are f32")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use nephrite::decimate::jade::Placement;
 use nephrite::generate::{ball_volume, box_volume, torus};
 use nephrite::measure::{MeasureOptions, measure, measure_fields};
 use nephrite::{
-    BuildOptions, History, Method, TetrahedronMesh, TriangleMesh, VolumeOptions, build, build_volume,
+    BuildOptions, History, JadeOptions, Placement, ProgressiveOptions, TetrahedronMesh, TriangleMesh,
+    VolumeOptions, build, build_volume,
 };
-use std::ops::ControlFlow::Continue;
 
 /// Powers of two near 1e-12, 1e-9 and so on.
 const POWERS: [i32; 8] = [-40, -30, -20, -10, 10, 20, 30, 40];
@@ -52,23 +51,23 @@ fn half_error<const N: usize>(history: &History<N>) -> f64 {
 #[test]
 fn of_surfaces() {
     let mesh = torus(48, 24);
-    let best = nephrite::decimate::jade::JadeOptions::of_placement(Placement::Best);
+    let best = JadeOptions::certified(Placement::Best);
     let ways = [
         ("jade", BuildOptions::default()),
-        ("jade that moves vertices", BuildOptions { jade: best, ..BuildOptions::default() }),
-        ("progressive", BuildOptions { method: Method::Progressive, ..BuildOptions::default() }),
+        ("jade that moves vertices", BuildOptions::with(best)),
+        ("progressive", BuildOptions::with(ProgressiveOptions::default())),
     ];
     for (name, options) in ways {
-        let built = |factor| build(&scaled_surface(&mesh, factor), &options, &|_| Continue(())).unwrap();
+        let built = |factor| build(scaled_surface(&mesh, factor), &options).unwrap();
         let one = built(1.0);
         for power in POWERS {
             let factor = 2.0_f64.powi(power);
             let scaled = built(factor);
-            check(name, &scaled.history, &one.history, factor);
+            check(name, scaled.history(), one.history(), factor);
         }
         for factor in [1e-12, 1e12] {
-            let error = half_error(&built(factor).history) / factor;
-            let ratio = error / half_error(&one.history);
+            let error = half_error(built(factor).history()) / factor;
+            let ratio = error / half_error(one.history());
             assert!((0.5..2.0).contains(&ratio), "{name}: {ratio} times the error at {factor:e}");
         }
     }
@@ -77,23 +76,24 @@ fn of_surfaces() {
 #[test]
 fn of_volumes() {
     for mesh in [ball_volume(8), box_volume([7, 6, 5])] {
-        let built = |factor| {
-            build_volume(&scaled_volume(&mesh, factor), &VolumeOptions::default(), &|_| Continue(()))
-        };
+        let built = |factor| build_volume(&scaled_volume(&mesh, factor), &VolumeOptions::default());
         let one = built(1.0).unwrap();
         for power in POWERS {
             let factor = 2.0_f64.powi(power);
             let build = built(factor).unwrap();
-            check("fusion", &build.history, &one.history, factor);
-            assert_eq!(build.mesh.positions, scaled(&one.mesh.positions, factor));
-            assert_eq!(build.mesh.attributes, one.mesh.attributes);
+            check("fusion", build.history(), one.history(), factor);
+            assert_eq!(build.vertices().positions, scaled(one.vertices().positions, factor));
+            assert_eq!(build.vertices().attributes, one.vertices().attributes);
         }
         for factor in [1e-12, 1e12] {
-            let n_fusions =
-                build_volume(&scaled_volume(&mesh, factor), &VolumeOptions::default(), &|_| Continue(()))
-                    .unwrap()
-                    .n_fusions;
-            assert!(n_fusions.abs_diff(one.n_fusions) * 20 < one.n_fusions, "{n_fusions} at {factor:e}");
+            let n_fusions = build_volume(&scaled_volume(&mesh, factor), &VolumeOptions::default())
+                .unwrap()
+                .fusions()
+                .n_fusions;
+            assert!(
+                n_fusions.abs_diff(one.fusions().n_fusions) * 20 < one.fusions().n_fusions,
+                "{n_fusions} at {factor:e}"
+            );
         }
     }
 }

@@ -6,21 +6,20 @@
 mod engine;
 
 use engine::{alive_at, boundary_loops, build_all, edge_faces, euler_characteristic, spread_steps};
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::store::{self, Provenance, StoreOptions};
-use nephrite::{Attribute, Bound, Build, BuildError, BuildOptions, Lod, Method, ScalarType, TriangleMesh};
-use nephrite::{bounding_diagonal, build, generate};
+use nephrite::{
+    Attribute, Build, BuildOptions, JadeOptions, Lod, Placement, ScalarType, StoreOptions, TriangleMesh,
+    bounding_diagonal, generate,
+};
 use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 
 fn best() -> BuildOptions {
-    BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..BuildOptions::default() }
+    BuildOptions::with(JadeOptions::certified(Placement::Best))
 }
 
 /// Triangles of the last step whose error is at most `error`.
 fn n_triangles_at(build: &Build, error: f64) -> usize {
-    let step = build.history.errors.partition_point(|&e| e <= error) - 1;
-    alive_at(&build.history, step as u32).len()
+    let step = build.history().errors.partition_point(|&e| e <= error) - 1;
+    alive_at(build.history(), step as u32).len()
 }
 
 #[test]
@@ -49,12 +48,12 @@ fn topology_and_bounding_box_are_kept() {
     ];
     for (name, mesh) in surfaces {
         let build = build_all(&mesh, &best());
-        assert!(build.mesh.positions.len() > mesh.positions.len(), "{name}: nothing moved");
-        assert_eq!(build.mesh.positions[..mesh.positions.len()], mesh.positions, "{name}");
-        assert_eq!(bounding_diagonal(&build.mesh), bounding_diagonal(&mesh), "{name}");
+        assert!(build.vertices().positions.len() > mesh.positions.len(), "{name}: nothing moved");
+        assert_eq!(build.vertices().positions[..mesh.positions.len()], mesh.positions, "{name}");
+        assert_eq!(bounding_diagonal(build.vertices()), bounding_diagonal(&mesh), "{name}");
         let (loops, euler) = (boundary_loops(&mesh.triangles), euler_characteristic(&mesh.triangles));
-        for step in spread_steps(&build.history, 40) {
-            let triangles = alive_at(&build.history, step);
+        for step in spread_steps(build.history(), 40) {
+            let triangles = alive_at(build.history(), step);
             assert!(edge_faces(&triangles).values().all(|&n| n <= 2), "{name}, step {step}");
             assert_eq!(boundary_loops(&triangles), loops, "{name}, step {step}");
             assert_eq!(euler_characteristic(&triangles), euler, "{name}, step {step}");
@@ -99,15 +98,15 @@ fn textured_torus() -> TriangleMesh {
 fn vertices_of_a_seam_stay_and_the_others_keep_their_attributes() {
     let mesh = textured_torus();
     let build = build_all(&mesh, &best());
-    let values: Vec<f64> = build.mesh.attributes[0].values().collect();
+    let values: Vec<f64> = build.vertices().attributes[0].values().collect();
     let n_before = mesh.positions.len();
-    assert!(build.mesh.positions.len() > n_before, "nothing moved");
-    assert_eq!(values.len(), build.mesh.positions.len());
+    assert!(build.vertices().positions.len() > n_before, "nothing moved");
+    assert_eq!(values.len(), build.vertices().positions.len());
     assert!(values[n_before..].iter().all(|&value| value > 0.0 && value < 1.0), "a vertex of the seam moved");
-    for step in spread_steps(&build.history, 40) {
+    for step in spread_steps(build.history(), 40) {
         // By position, both sides of the seam are one, so the surface is closed.
-        let place = |v: u32| build.mesh.positions[v as usize].map(f32::to_bits);
-        let triangles = alive_at(&build.history, step);
+        let place = |v: u32| build.vertices().positions[v as usize].map(f32::to_bits);
+        let triangles = alive_at(build.history(), step);
         let places: Vec<_> = triangles.iter().flatten().map(|&v| place(v)).collect();
         let distinct: Vec<_> = places.iter().collect::<BTreeSet<_>>().into_iter().collect();
         let index = |v: u32| distinct.binary_search(&&place(v)).unwrap() as u32;
@@ -123,36 +122,22 @@ fn a_file_serves_every_level() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("torus.neph");
     let store = StoreOptions { levels: Some(u32::MAX), ..StoreOptions::default() };
-    store::write(&path, &built.mesh, &built.history, &Provenance::default(), &store).unwrap();
+    built.write(&path, &store).unwrap();
     let lod = Lod::open(&path).unwrap();
     lod.verify().unwrap();
     for level in 0..lod.n_levels() {
         let cut = lod.at_level(level);
         let found = cut.to_mesh().unwrap();
-        let step = built.history.errors.partition_point(|&error| error <= cut.error()) - 1;
-        let place =
-            |mesh: &TriangleMesh, t: [u32; 3]| t.map(|v| mesh.positions[v as usize].map(f32::to_bits));
-        let sorted = |mesh: &TriangleMesh, triangles: &[[u32; 3]]| {
-            let mut places: Vec<_> = triangles.iter().map(|&t| place(mesh, t)).collect();
+        let step = built.history().errors.partition_point(|&error| error <= cut.error()) - 1;
+        let sorted = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| {
+            let place = |t: &[u32; 3]| t.map(|v| positions[v as usize].map(f32::to_bits));
+            let mut places: Vec<_> = triangles.iter().map(place).collect();
             places.iter_mut().for_each(|t| t.sort_unstable());
             places.sort_unstable();
             places
         };
-        let expected = alive_at(&built.history, step as u32);
-        assert_eq!(sorted(&found, &found.triangles), sorted(&built.mesh, &expected), "level {level}");
-    }
-}
-
-#[test]
-fn without_the_proof_vertices_do_not_move() {
-    let others = [
-        (Method::Jade, Bound::Joint),
-        (Method::Jade, Bound::Removed),
-        (Method::Progressive, Bound::Certified),
-    ];
-    for (method, bound) in others {
-        let options = BuildOptions { method, bound, ..best() };
-        let refused = build(&generate::sphere(3), &options, &|_| ControlFlow::Continue(()));
-        assert_eq!(refused, Err(BuildError::PlacementOfBound), "{method:?}, {bound:?}");
+        let expected = alive_at(built.history(), step as u32);
+        let expected = sorted(built.vertices().positions, &expected);
+        assert_eq!(sorted(&found.positions, &found.triangles), expected, "level {level}");
     }
 }

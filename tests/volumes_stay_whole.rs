@@ -6,23 +6,19 @@
 
 mod support;
 
-use nephrite::decimate::fusion::FusionOptions;
 use nephrite::generate::{ball_volume, box_volume};
 use nephrite::measure::{Verdict, check_within, measure_fields};
-use nephrite::reprove::{ErrorTable, ReproveError};
-use nephrite::store::Provenance;
 use nephrite::{
-    Attribute, Lod, ScalarType, TetrahedronMesh, TriangleMesh, VolumeBuild, VolumeOptions, build_volume,
-    volume,
+    Attribute, Bound, ErrorTable, FusionOptions, Lod, ReproveError, ScalarType, TetrahedronMesh,
+    TriangleMesh, VolumeBuild, VolumeOptions, build_volume,
 };
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow::Continue;
 use std::path::PathBuf;
 use support::served::served;
 
 fn built(mesh: &TetrahedronMesh, options: &VolumeOptions) -> (VolumeBuild, Lod) {
-    let build = build_volume(mesh, options, &|_| Continue(())).unwrap();
-    let lod = served(&build.mesh, &build.history, &Provenance::default());
+    let build = build_volume(mesh, options).unwrap();
+    let lod = served(|stream, options| build.write_to(stream, options));
     (build, lod)
 }
 
@@ -64,7 +60,7 @@ fn topology(surface: &TriangleMesh) -> (i64, usize) {
 
 /// Checks what holds of every volume, at every level given.
 fn check(input: &TetrahedronMesh, lod: &Lod, levels: &BTreeSet<u32>) {
-    let surface = volume::boundary(&lod.at_level(0).to_volume().unwrap());
+    let surface = nephrite::boundary(&lod.at_level(0).to_volume().unwrap());
     let expected = topology(&surface);
     for &level in levels {
         let cut = lod.at_level(level);
@@ -75,7 +71,7 @@ fn check(input: &TetrahedronMesh, lod: &Lod, levels: &BTreeSet<u32>) {
         assert!((kept - 1.0).abs() <= 0.001, "{kept} of the volume at level {level}");
         let boundary = cut.boundary().unwrap();
         assert_eq!(topology(&boundary), expected, "level {level}");
-        let limit = cut.error().max(1e-6 * volume::bounding_diagonal(input));
+        let limit = cut.error().max(1e-6 * nephrite::bounding_diagonal(input));
         let verdict = check_within(&surface, &boundary, limit, 50_000_000).unwrap();
         assert_eq!(verdict, Verdict::Within, "level {level} states {}", cut.error());
     }
@@ -90,7 +86,7 @@ fn a_box_keeps_its_corners_edges_and_linear_field() {
     // Flat faces give no reason to stop.
     let coarsest = lod.at_level(lod.n_levels() - 1);
     assert!(coarsest.n_simplices() * 20 < input.tetrahedra.len(), "{}", coarsest.n_simplices());
-    assert!(build.n_tetrahedron_fusions > 0);
+    assert!(build.fusions().n_tetrahedron_fusions > 0);
     for &level in &levels {
         let mesh = lod.at_level(level).to_volume().unwrap();
         let positions: BTreeSet<[u32; 3]> = mesh.positions.iter().map(|p| p.map(f32::to_bits)).collect();
@@ -111,7 +107,7 @@ fn a_box_keeps_its_corners_edges_and_linear_field() {
             assert!(field.max < 1e-6 && field.n_outside == 0, "{field:?}");
         }
     }
-    let linear = build.history.deviations.iter().find(|deviation| deviation.name == "linear").unwrap();
+    let linear = build.history().deviations.iter().find(|deviation| deviation.name == "linear").unwrap();
     let deviation = *linear.values.last().unwrap();
     assert!(deviation < 1e-6, "{deviation:e}");
 }
@@ -123,9 +119,16 @@ fn a_ball_stays_a_ball() {
     check(&input, &lod, &spread(&lod, 20));
     // A tetrahedron inside takes at least eleven with it, the lower bound of the paper.
     let n_left = lod.at_level(lod.n_levels() - 1).n_simplices();
-    assert!(build.n_left_by_tetrahedra * 10 < 7 * input.tetrahedra.len(), "{}", build.n_left_by_tetrahedra);
+    assert!(
+        build.fusions().n_left_by_tetrahedra * 10 < 7 * input.tetrahedra.len(),
+        "{}",
+        build.fusions().n_left_by_tetrahedra
+    );
     assert!(n_left * 2 < input.tetrahedra.len(), "{n_left}");
-    assert!(input.tetrahedra.len() - build.n_left_by_tetrahedra >= 11 * build.n_tetrahedron_fusions);
+    assert!(
+        input.tetrahedra.len() - build.fusions().n_left_by_tetrahedra
+            >= 11 * build.fusions().n_tetrahedron_fusions
+    );
 }
 
 #[test]
@@ -143,7 +146,7 @@ fn threads_do_not_change_the_history() {
     let input = ball_volume(8);
     let build = |n_threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
-        pool.install(|| build_volume(&input, &VolumeOptions::default(), &|_| Continue(())).unwrap())
+        pool.install(|| build_volume(&input, &VolumeOptions::default()).unwrap())
     };
     assert_eq!(build(1), build(3));
 }
@@ -160,23 +163,27 @@ fn the_paper_s_smallest_volume_reaches_its_reduction() {
     let n_coarsest = lod.at_level(lod.n_levels() - 1).n_simplices();
     let reduction = 1.0 - n_coarsest as f64 / input.tetrahedra.len() as f64;
     assert!(reduction >= 0.536_48, "{reduction}");
-    let n_fused = input.tetrahedra.len() - build.n_left_by_tetrahedra;
-    assert!(n_fused >= 11 * build.n_tetrahedron_fusions, "{n_fused} in {}", build.n_tetrahedron_fusions);
+    let n_fused = input.tetrahedra.len() - build.fusions().n_left_by_tetrahedra;
+    assert!(
+        n_fused >= 11 * build.fusions().n_tetrahedron_fusions,
+        "{n_fused} in {}",
+        build.fusions().n_tetrahedron_fusions
+    );
 }
 
 /// Promise: `verify --bound` proves the boundary of a volume's levels from the file alone.
 #[test]
 fn the_boundary_s_errors_are_proven_anew() {
     let input = ball_volume(8);
-    let (build, _) = built(&input, &VolumeOptions::default());
-    let provenance = |bound: &str| Provenance { bound: bound.to_owned(), ..Provenance::default() };
-    let lod = |bound| served(&build.mesh, &build.history, &provenance(bound));
-    let certified = lod("boundary");
+    let (build, certified) = built(&input, &VolumeOptions::default());
     let table = ErrorTable::new(&certified).unwrap();
     for &level in &spread(&certified, 6) {
         table.prove(level).unwrap();
     }
-    assert!(matches!(ErrorTable::new(&lod("estimate")), Err(ReproveError::NotCertified { .. })));
+    // The history alone states nothing.
+    let unstated = served(|stream, options| build.history().write_to(stream, build.vertices(), options));
+    let refused = ErrorTable::new(&unstated).map(drop);
+    assert_eq!(refused, Err(ReproveError::NotCertified { found: Bound::Unstated }));
 }
 
 #[test]
@@ -185,5 +192,5 @@ fn fields_of_the_largest_values_are_written() {
     let values = (0..mesh.positions.len()).map(|v| if v % 2 == 0 { f64::MAX } else { -f64::MAX });
     mesh.attributes = vec![Attribute::from_values("f", ScalarType::F64, 1, values)];
     let (build, lod) = built(&mesh, &VolumeOptions::default());
-    assert!(build.n_fusions > 0 && lod.n_levels() > 1);
+    assert!(build.fusions().n_fusions > 0 && lod.n_levels() > 1);
 }

@@ -6,9 +6,7 @@
 #[path = "../../tests/support/synthetic.rs"]
 pub mod synthetic;
 
-use nephrite::Lod;
-use nephrite::history::History;
-use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::{History, Lod, StoreOptions};
 use std::io::Cursor;
 use synthetic::{Random, decimate, grid};
 
@@ -26,14 +24,8 @@ pub fn surface(side: usize) -> (nephrite::TriangleMesh, History<3>) {
 pub fn file_bytes(side: usize, levels: Option<u32>) -> Vec<u8> {
     let (mesh, history) = surface(side);
     let mut stream = Cursor::new(Vec::new());
-    write_to(
-        &mut stream,
-        &mesh,
-        &history,
-        &Provenance::default(),
-        &StoreOptions { levels, ..StoreOptions::default() },
-    )
-    .unwrap();
+    let options = StoreOptions { levels, ..StoreOptions::default() };
+    history.write_to(&mut stream, &mesh, &options).unwrap();
     stream.into_inner()
 }
 

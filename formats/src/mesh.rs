@@ -13,6 +13,7 @@
 //! [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can include it.
 
 use crate::error::{MeshError, Place};
+use std::borrow::Cow;
 
 /// Triangles over shared vertices, with attributes that belong to vertices.
 ///
@@ -65,6 +66,18 @@ pub struct Attribute {
     pub n_components: u32,
     /// Little-endian values, `n_vertices * n_components * scalar.size_bytes()` bytes.
     pub bytes: Vec<u8>,
+}
+
+impl<'a> From<&'a TriangleMesh> for Cow<'a, TriangleMesh> {
+    fn from(mesh: &'a TriangleMesh) -> Self {
+        Self::Borrowed(mesh)
+    }
+}
+
+impl From<TriangleMesh> for Cow<'_, TriangleMesh> {
+    fn from(mesh: TriangleMesh) -> Self {
+        Self::Owned(mesh)
+    }
 }
 
 impl TriangleMesh {

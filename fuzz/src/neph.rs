@@ -5,7 +5,7 @@ use crate::script::Script;
 use crate::synthetic::{decimate, grid, succeed};
 use nephrite::Lod;
 use nephrite::query::{Picker, Projection, View};
-use nephrite::store::{Provenance, StoreOptions, write_to};
+use nephrite::store::StoreOptions;
 use nephrite_formats::neph::HEADER_BYTES;
 use std::io::Cursor;
 use std::sync::LazyLock;
@@ -34,7 +34,7 @@ static FILES: LazyLock<Vec<(Vec<u8>, Seal)>> = LazyLock::new(|| {
         if has_births {
             succeed(&mut mesh, &mut history, 5);
         }
-        write_to(&mut stream, &mesh, &history, &Provenance::default(), &options).unwrap();
+        history.write_to(&mut stream, &mesh, &options).unwrap();
         let bytes = stream.into_inner();
         let seal = Seal::of(&bytes);
         (bytes, seal)

@@ -2,11 +2,11 @@
 
 use crate::script::Script;
 use flate2::read::DeflateDecoder;
-use nephrite::progressive_mesh::{ProgressiveMesh, STREAM_HEADER_BYTES, encode};
-use nephrite::{Bound, BuildOptions, Method, build, generate};
+use nephrite::{
+    BuildOptions, ProgressiveBound, ProgressiveMesh, ProgressiveOptions, STREAM_HEADER_BYTES, build, generate,
+};
 use nephrite_formats::neph;
 use std::io::Read;
-use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
 /// Bytes before the planes of a block: operations, length, checksum.
@@ -16,14 +16,10 @@ const BLOCK_HEADER_BYTES: usize = 12;
 /// the compression.
 static STREAMS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let stream = |mesh, pre_split| {
-        let mut options = BuildOptions {
-            method: Method::Progressive,
-            bound: Bound::Accumulated,
-            ..BuildOptions::default()
-        };
-        options.progressive.pre_split = pre_split;
-        let build = build(&mesh, &options, &|_| ControlFlow::Continue(())).unwrap();
-        uncoded(&encode(&build).unwrap().bytes)
+        let bound = ProgressiveBound::Accumulated;
+        let options = ProgressiveOptions { bound, pre_split, ..ProgressiveOptions::default() };
+        let build = build(&mesh, &BuildOptions::with(options)).unwrap();
+        uncoded(&build.operations().unwrap().bytes)
     };
     vec![
         stream(generate::torus(6, 4), false),

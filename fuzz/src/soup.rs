@@ -1,19 +1,12 @@
 //! Random triangles made into a file, and random histories.
 
 use crate::script::Script;
-use nephrite::decimate::fusion::FusionOptions;
-use nephrite::decimate::jade::{JadeOptions, Placement};
-use nephrite::decimate::progressive::ProgressiveOptions;
-use nephrite::history::{History, NEVER};
-use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-use nephrite::store::Vertices;
-use nephrite::store::{Provenance, StoreOptions, WriteError, write_to};
 use nephrite::{
-    Attribute, Bound, BuildError, BuildOptions, Lod, Method, ScalarType, TetrahedronMesh, TriangleMesh,
-    VolumeOptions, build_volume,
+    Attribute, BuildError, BuildOptions, EstimateKind, FusionOptions, History, JadeOptions, Lod, NEVER,
+    Placement, ProgressiveBound, ProgressiveMesh, ProgressiveOptions, ScalarType, StoreOptions,
+    TetrahedronMesh, TriangleMesh, VolumeOptions, build_volume,
 };
 use std::io::Cursor;
-use std::ops::ControlFlow::Continue;
 
 /// Most vertices and triangles of a soup: enough for every kind of star, and a build takes a
 /// fraction of a millisecond.
@@ -30,11 +23,13 @@ const MAX_TRIANGLES: usize = 24;
 /// If the build fails although triangles are left after repair, or its file does not verify.
 pub(crate) fn build_soup(script: &[u8]) {
     let mut script = Script::new(script);
+    let estimates = [EstimateKind::Joint, EstimateKind::Removed, EstimateKind::Accumulated];
+    let [joint, removed, accumulated] = estimates.map(JadeOptions::estimate);
+    let jade = [JadeOptions::default(), joint, removed, accumulated][script.below(4)];
     let options = BuildOptions {
-        bound: [Bound::Certified, Bound::Joint, Bound::Removed, Bound::Accumulated][script.below(4)],
         max_error: [None, Some(0.1), Some(5.0)][script.below(3)],
         feature_angle_degrees: [60.0, 0.0, 180.0][script.below(3)],
-        ..BuildOptions::default()
+        ..BuildOptions::with(jade)
     };
     build_any(&soup(&mut script), &options);
 }
@@ -47,35 +42,33 @@ pub(crate) fn build_soup(script: &[u8]) {
 /// As [`build_soup`].
 pub(crate) fn build_soup_otherwise(script: &[u8]) {
     let mut script = Script::new(script);
-    let by_collapses = |bound, pre_split, reduction| BuildOptions {
-        method: Method::Progressive,
-        bound,
-        progressive: ProgressiveOptions { pre_split, reduction },
-        ..BuildOptions::default()
-    };
+    let by_collapses =
+        |bound, pre_split, reduction| BuildOptions::with(ProgressiveOptions { bound, pre_split, reduction });
     let mut options = match script.below(4) {
-        0 => by_collapses(Bound::Certified, false, None),
-        1 => by_collapses(Bound::Accumulated, true, None),
-        2 => by_collapses(Bound::Certified, script.u8() % 2 == 1, Some(0.5)),
-        _ => BuildOptions { jade: JadeOptions::of_placement(Placement::Best), ..BuildOptions::default() },
+        0 => by_collapses(ProgressiveBound::Certified, false, None),
+        1 => by_collapses(ProgressiveBound::Accumulated, true, None),
+        2 => by_collapses(ProgressiveBound::Certified, script.u8() % 2 == 1, Some(0.5)),
+        _ => BuildOptions::with(JadeOptions::certified(Placement::Best)),
     };
     options.max_error = [None, Some(0.1), Some(5.0)][script.below(3)];
     build_any(&soup(&mut script), &options);
 }
 
 fn build_any(mesh: &TriangleMesh, options: &BuildOptions) {
-    let build = match nephrite::build(mesh, options, &|_| Continue(())) {
+    let build = match nephrite::build(mesh, options) {
         Ok(build) => build,
         Err(BuildError::NoTriangles { .. }) => return,
         Err(error) => panic!("{error}"),
     };
-    let bytes = written(&build.mesh, &build.history).unwrap();
-    check_file(&bytes, build.mesh.triangles.len());
-    if build.passage.is_some() {
+    let n_triangles = build.history().n_alive(0);
+    let mut stream = Cursor::new(Vec::new());
+    build.write_to(&mut stream, &StoreOptions::default()).unwrap();
+    check_file(stream.get_ref(), n_triangles);
+    if build.progressive().is_some() {
         let mut played = ProgressiveMesh::new();
-        played.append(&encode(&build).unwrap().bytes).unwrap();
+        played.append(&build.operations().unwrap().bytes).unwrap();
         played.refine(usize::MAX);
-        assert_eq!(played.triangles().len(), build.mesh.triangles.len());
+        assert_eq!(played.triangles().len(), n_triangles);
     }
 }
 
@@ -104,13 +97,14 @@ pub(crate) fn fuse_soup(script: &[u8]) {
         tetrahedra.push(std::array::from_fn(|_| u32::from(script.u8() % n_vertices)));
     }
     let mesh = TetrahedronMesh { positions, attributes, tetrahedra, ..TetrahedronMesh::default() };
-    let build = match build_volume(&mesh, &options, &|_| Continue(())) {
+    let build = match build_volume(&mesh, &options) {
         Ok(build) => build,
         Err(BuildError::NoTetrahedra { .. }) => return,
         Err(error) => panic!("{error}"),
     };
-    let bytes = written(&build.mesh, &build.history).unwrap();
-    let lod = Lod::from_bytes(&bytes).unwrap();
+    let mut stream = Cursor::new(Vec::new());
+    build.write_to(&mut stream, &StoreOptions::default()).unwrap();
+    let lod = Lod::from_bytes(stream.get_ref()).unwrap();
     lod.verify().unwrap();
     let mut before = usize::MAX;
     for level in 0..lod.n_levels() {
@@ -160,6 +154,7 @@ pub(crate) fn write_history(script: &[u8]) {
         levels: [None, Some(1), Some(3), Some(0)][script.below(4)],
         window_levels: [None, Some(1), Some(2), Some(5)][script.below(4)],
         is_compact: script.u8() % 2 == 1,
+        operations: false,
     };
     let n_steps = script.below(12);
     let stamp = |script: &mut Script<'_>| match script.u8() {
@@ -190,7 +185,7 @@ pub(crate) fn write_history(script: &[u8]) {
         ..TriangleMesh::default()
     };
     let mut stream = Cursor::new(Vec::new());
-    match write_to(&mut stream, &mesh, &history, &Provenance::default(), &options) {
+    match history.write_to(&mut stream, &mesh, &options) {
         Ok(report) => {
             let lod = check_file(stream.get_ref(), report_len(&history));
             assert_eq!(lod.n_levels(), report.n_levels);
@@ -202,15 +197,6 @@ pub(crate) fn write_history(script: &[u8]) {
 /// Simplices alive at step 0.
 fn report_len(history: &History<3>) -> usize {
     history.birth.iter().filter(|&&birth| birth == 0).count()
-}
-
-fn written<'a, const CORNERS: usize>(
-    mesh: impl Into<Vertices<'a>>,
-    history: &History<CORNERS>,
-) -> Result<Vec<u8>, WriteError> {
-    let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, mesh, history, &Provenance::default(), &StoreOptions::default())?;
-    Ok(stream.into_inner())
 }
 
 /// Checks a file that must verify, with `n_triangles` triangles at level 0 and no level larger than

@@ -8,7 +8,7 @@ use super::replacement::Replacement;
 use crate::geometry::distance::point_segment_distance_sq;
 use crate::mesh::{Filling, Hole, Renumbering, Surface};
 
-/// Which estimate decides.
+/// Which of the paper's estimates decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EstimateKind {
     /// e_g1.

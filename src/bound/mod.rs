@@ -13,22 +13,6 @@ pub use replacement::Replacement;
 use crate::mesh::{Hole, Renumbering, Surface, TooMany};
 use certified::{Certified, MapChange, Transfer};
 use estimate::{Estimate, EstimateChange, EstimateKind};
-use serde::{Deserialize, Serialize};
-
-/// What the error of a level means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Bound {
-    /// A proven bound on the two-sided Hausdorff distance to the input.
-    #[default]
-    Certified,
-    /// The paper's estimate e_g3, the larger of the other two.
-    Joint,
-    /// The paper's estimate e_g2, from the removed vertices.
-    Removed,
-    /// The paper's estimate e_g1, accumulated local errors.
-    Accumulated,
-}
 
 /// An error is followed up to so many times its limit: what a removal needs is then known well
 /// enough for the limits to come, and farther off it does not matter yet.
@@ -54,14 +38,11 @@ pub enum Change {
 
 impl GlobalError {
     /// The error at the start, when `surface` is the input but for `rounding`: how far reading it
-    /// moved the worst vertex.
-    pub fn new(bound: Bound, surface: &Surface, rounding: f64) -> Self {
-        let estimate = |kind| Self::Estimate(Estimate::new(kind, surface));
-        match bound {
-            Bound::Certified => Self::Certified(Certified::new(surface, rounding)),
-            Bound::Joint => estimate(EstimateKind::Joint),
-            Bound::Removed => estimate(EstimateKind::Removed),
-            Bound::Accumulated => estimate(EstimateKind::Accumulated),
+    /// moved the worst vertex. Without an estimate it is proven.
+    pub fn new(estimate: Option<EstimateKind>, surface: &Surface, rounding: f64) -> Self {
+        match estimate {
+            None => Self::Certified(Certified::new(surface, rounding)),
+            Some(kind) => Self::Estimate(Estimate::new(kind, surface)),
         }
     }
 

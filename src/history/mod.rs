@@ -45,6 +45,20 @@ pub struct History<const CORNERS: usize = 3> {
     pub deviations: Vec<Deviation>,
 }
 
+impl<const CORNERS: usize> History<CORNERS> {
+    /// Simplices alive at a step, by a scan of all that ever lived.
+    pub fn alive(&self, step: u32) -> impl Iterator<Item = [u32; CORNERS]> + '_ {
+        let lifetimes = self.birth.iter().zip(&self.death).zip(&self.simplices);
+        let alive = lifetimes.filter(move |&((&birth, &death), _)| birth <= step && step < death);
+        alive.map(|(_, &simplex)| simplex)
+    }
+
+    /// Number of simplices alive at a step. O(n).
+    pub fn n_alive(&self, step: u32) -> usize {
+        self.alive(step).count()
+    }
+}
+
 /// An estimate that a decimator states for each step beside the error, such as how far a field has
 /// come from that of the input.
 #[derive(Clone, Debug, Default, PartialEq)]

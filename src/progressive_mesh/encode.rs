@@ -30,8 +30,8 @@ pub struct Encoded {
 /// [`StreamError::NoOperations`] for a build of another decimator. [`StreamError::Meaningless`] if
 /// stars of hundreds of thousands of triangles moved so often that no reader would accept the
 /// stream.
-pub fn encode(build: &Build) -> Result<Encoded, StreamError> {
-    let trace = &build.passage.as_ref().ok_or(StreamError::NoOperations)?.trace;
+pub(crate) fn encode(build: &Build) -> Result<Encoded, StreamError> {
+    let trace = &build.progressive().ok_or(StreamError::NoOperations)?.trace;
     let mut writer = Writer::new(&build.mesh);
     let planned = plan(build, trace);
     let mut n_in_block = 0;

@@ -18,7 +18,8 @@ mod growth;
 mod plan;
 mod planes;
 
-pub use encode::{Encoded, encode};
+pub use encode::Encoded;
+pub(crate) use encode::encode;
 pub use error::StreamError;
 
 use decode::{Decoder, Header};
@@ -34,12 +35,11 @@ pub const STREAM_HEADER_BYTES: usize = Header::BYTES;
 /// full mesh.
 ///
 /// ```
-/// use nephrite::progressive_mesh::{ProgressiveMesh, encode};
-/// use nephrite::{BuildOptions, Method, build, generate};
-/// use std::ops::ControlFlow;
-/// let options = BuildOptions { method: Method::Progressive, ..BuildOptions::default() };
-/// let build = build(&generate::torus(16, 8), &options, &|_| ControlFlow::Continue(()))?;
-/// let encoded = encode(&build)?;
+/// use nephrite::decimate::progressive::ProgressiveOptions;
+/// use nephrite::progressive_mesh::ProgressiveMesh;
+/// use nephrite::{BuildOptions, build, generate};
+/// let build = build(&generate::torus(16, 8), &BuildOptions::with(ProgressiveOptions::default()))?;
+/// let encoded = build.operations()?;
 /// let mut mesh = ProgressiveMesh::from_bytes(&encoded.bytes)?;
 /// assert_eq!(mesh.triangles().len(), 0);
 /// mesh.refine(usize::MAX);

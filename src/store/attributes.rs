@@ -18,7 +18,7 @@ pub(super) struct AttributeSections {
 ///
 /// # Errors
 ///
-/// What [`write_to`](super::write_to) would say of them.
+/// What [`Build::write`](crate::Build::write) would say of them.
 pub fn check_attributes<'a>(mesh: impl Into<Vertices<'a>>) -> Result<(), WriteError> {
     AttributeSections::new(mesh.into(), 0).map(drop)
 }

@@ -23,7 +23,7 @@ pub enum WriteError {
         /// Answer of the system.
         source: io::Error,
     },
-    /// The stream given to [`write_to`](super::write_to) refused.
+    /// The stream given to [`Build::write_to`](crate::Build::write_to) refused.
     #[error("cannot write to the stream")]
     Stream(#[from] io::Error),
     /// What was read back differs from what was written.
@@ -37,6 +37,9 @@ pub enum WriteError {
     /// The history breaks an invariant.
     #[error("history is not valid")]
     History(#[from] HistoryError),
+    /// Operations are wanted of a build that has none, or none that a reader could follow.
+    #[error("the operations cannot be written")]
+    Operations(#[from] StreamError),
     /// The history and the mesh belong to different vertices.
     #[error("history has {found} vertices, the mesh {expected}")]
     VertexCount {

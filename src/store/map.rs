@@ -24,7 +24,7 @@ impl Opened {
     /// * the file lies on a device that stays readable: a failing read is the same fault.
     ///
     /// Renaming another file over the path, or deleting it, is safe: the map keeps the file it was made from.
-    /// [`store::write`](crate::store::write()) publishes by rename and so keeps this contract.
+    /// [`Build::write`](crate::Build::write) publishes by rename and so keeps this contract.
     ///
     /// # Errors
     ///

@@ -5,10 +5,11 @@ use super::attributes::AttributeSections;
 use super::compact::CompactSlots;
 use super::content::Content;
 use super::pieces::Pieces;
-use super::{Metadata, Provenance, Vertices, WriteError};
+use super::{Metadata, Vertices, WriteError};
 use crate::History;
 use crate::geometry::morton::Grid;
 use crate::history::Levels;
+use crate::progressive_mesh::StreamError;
 use crate::tree::Layout;
 use crate::vertex_cache::FanOrder;
 use nephrite_formats::neph::{
@@ -28,6 +29,9 @@ pub struct StoreOptions {
     /// Each simplex once, with narrow indices and stamps: a file of a third to two thirds the length, which a reader lays
     /// out in memory when it opens it, whereas slots in the plain form are used where they lie.
     pub is_compact: bool,
+    /// Whether the file also holds the operations of a progressive build, from which the mesh can be built up one by one while
+    /// they arrive, see [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh). Only a progressive build has them.
+    pub operations: bool,
 }
 
 /// What was written.
@@ -49,67 +53,65 @@ pub struct StoreReport {
     pub file_bytes: u64,
 }
 
-/// Writes a whole file to an empty stream.
-///
-/// Memory: 4 bytes per slot and 8 per vertex, beside mesh and history. The same input gives the same bytes on any number
-/// of threads. [`write`](super::write()) does the same to a path, safely.
-///
-/// # Errors
-///
-/// [`WriteError`] when the history or an attribute does not fit the mesh, when the file would exceed a limit of the format,
-/// or when the stream refuses.
-pub fn write_to<'a, const CORNERS: usize>(
-    stream: &mut (impl Write + Seek),
-    mesh: impl Into<Vertices<'a>>,
-    history: &History<CORNERS>,
-    provenance: &Provenance,
-    options: &StoreOptions,
-) -> Result<StoreReport, WriteError> {
-    write_to_with(stream, mesh, history, provenance, options, &[])
+/// What a file is made of.
+pub(crate) struct Source<'a, const CORNERS: usize> {
+    /// The vertices that the history's indices refer to.
+    pub(crate) vertices: Vertices<'a>,
+    /// Every simplex that ever lived.
+    pub(crate) history: &'a History<CORNERS>,
+    /// How the history was made.
+    pub(crate) metadata: Metadata,
+    /// An [operation stream](crate::progressive_mesh); empty for none.
+    pub(crate) operations: Vec<u8>,
 }
 
-/// As [`write_to`], with an [operation stream](crate::progressive_mesh) as a section of its own; none where it is empty.
-///
-/// # Errors
-///
-/// As [`write_to`].
-pub fn write_to_with<'a, const CORNERS: usize>(
-    stream: &mut (impl Write + Seek),
-    mesh: impl Into<Vertices<'a>>,
-    history: &History<CORNERS>,
-    provenance: &Provenance,
-    options: &StoreOptions,
-    operations: &[u8],
-) -> Result<StoreReport, WriteError> {
-    let mesh = mesh.into();
-    check_mesh(mesh, history)?;
-    history.check()?;
-    let levels = Levels::choose(history, options.levels)?;
-    let pieces = Pieces::new(history, &levels, options.window_levels)?;
-    let layout = lay_out(mesh, &pieces)?;
-    let vertices = VertexOrder::new(mesh, history, &levels);
-    let (run_offsets, runs) = layout.runs();
-    let metadata = metadata_bytes(provenance)?;
-    let attributes = AttributeSections::new(mesh, vertices.order.len())?;
-    let compact = options.is_compact.then(|| CompactSlots::new(layout.slots(), &pieces));
-    let content = Content {
-        mesh,
-        history,
-        levels: &levels,
-        pieces,
-        layout,
-        compact,
-        vertices,
-        run_offsets,
-        runs,
-        metadata,
-        deviation_names: deviation_names(history)?,
-        attributes,
-        operations,
-    };
-    let placement = neph::plan(&content.section_bytes(), CHUNK_BYTES)?;
-    content.stream_to(stream, &placement)?;
-    Ok(content.report(&placement))
+impl<const CORNERS: usize> Source<'_, CORNERS> {
+    /// Writes a whole file to an empty stream.
+    ///
+    /// Memory: 4 bytes per slot and 8 per vertex, beside mesh and history. The same input gives the same bytes on any number
+    /// of threads.
+    ///
+    /// # Errors
+    ///
+    /// [`WriteError`] when the history or an attribute does not fit the mesh, when the file would exceed a limit of the format,
+    /// when operations are wanted of a history that has none, or when the stream refuses.
+    pub(crate) fn write_to(
+        &self,
+        stream: &mut (impl Write + Seek),
+        options: &StoreOptions,
+    ) -> Result<StoreReport, WriteError> {
+        let Self { vertices: mesh, history, metadata, operations } = self;
+        if options.operations && operations.is_empty() {
+            return Err(StreamError::NoOperations.into());
+        }
+        check_mesh(*mesh, history)?;
+        history.check()?;
+        let levels = Levels::choose(history, options.levels)?;
+        let pieces = Pieces::new(history, &levels, options.window_levels)?;
+        let layout = lay_out(*mesh, &pieces)?;
+        let vertices = VertexOrder::new(*mesh, history, &levels);
+        let (run_offsets, runs) = layout.runs();
+        let attributes = AttributeSections::new(*mesh, vertices.order.len())?;
+        let compact = options.is_compact.then(|| CompactSlots::new(layout.slots(), &pieces));
+        let content = Content {
+            mesh: *mesh,
+            history,
+            levels: &levels,
+            pieces,
+            layout,
+            compact,
+            vertices,
+            run_offsets,
+            runs,
+            metadata: metadata_bytes(metadata)?,
+            deviation_names: deviation_names(history)?,
+            attributes,
+            operations,
+        };
+        let placement = neph::plan(&content.section_bytes(), CHUNK_BYTES)?;
+        content.stream_to(stream, &placement)?;
+        Ok(content.report(&placement))
+    }
 }
 
 fn check_mesh<const CORNERS: usize>(
@@ -167,8 +169,8 @@ fn order_by_fans<const CORNERS: usize>(
     stretch.copy_from_slice(&ids);
 }
 
-fn metadata_bytes(provenance: &Provenance) -> Result<Vec<u8>, WriteError> {
-    let metadata = serde_json::to_vec(&Metadata::new(provenance.clone()))?;
+fn metadata_bytes(metadata: &Metadata) -> Result<Vec<u8>, WriteError> {
+    let metadata = serde_json::to_vec(metadata)?;
     let found = metadata.len() as u64;
     if found > MAX_METADATA_BYTES {
         return Err(WriteError::MetadataBytes { found, max: MAX_METADATA_BYTES });
@@ -188,4 +190,17 @@ fn deviation_names<const CORNERS: usize>(history: &History<CORNERS>) -> Result<V
     let bytes: Vec<u8> = names().flat_map(|name| [name, b"\0"].concat()).collect();
     too_many("bytes of deviation names", bytes.len(), MAX_DEVIATION_NAMES_BYTES)?;
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn metadata_that_no_file_holds_are_refused() {
+        let metadata = |n| Metadata { options: "m".repeat(n).into(), ..Metadata::new() };
+        assert!(metadata_bytes(&metadata(1000)).is_ok());
+        let refused = metadata_bytes(&metadata(2 << 20));
+        assert!(matches!(refused, Err(WriteError::MetadataBytes { .. })));
+    }
 }

@@ -21,13 +21,11 @@ mod shapes;
 mod stl;
 
 use corpus::{Case, Cases, Corpus, told, variant};
-use nephrite::store::Provenance;
 use nephrite::{BuildError, BuildOptions};
 use nephrite_formats::{MeshError, MeshFormat, read_mesh};
 use serde_json::json;
 use served::served;
 use std::collections::BTreeSet;
-use std::ops::ControlFlow::Continue;
 use std::path::Path;
 
 fn corpus() -> Corpus {
@@ -47,14 +45,14 @@ fn outcome(path: &Path) -> String {
         }
     };
     mesh.check().unwrap();
-    let build = match nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())) {
+    let build = match nephrite::build(&mesh, &BuildOptions::default()) {
         Ok(build) => build,
         Err(error @ BuildError::NoTriangles { .. }) => return format!("refused: {}", variant(&error)),
         Err(error) => panic!("{}: {error}", path.display()),
     };
-    let lod = served(&build.mesh, &build.history, &Provenance::default());
+    let lod = served(|stream, options| build.write_to(stream, options));
     let triangles = format!("{} triangles", lod.at_level(0).n_simplices());
-    told(&triangles, [json!(report), json!(build.repairs)], report.notes().into_iter())
+    told(&triangles, [json!(report), json!(build.repairs())], report.notes().into_iter())
 }
 
 #[test]

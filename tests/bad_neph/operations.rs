@@ -2,11 +2,10 @@
 //! description of the format.
 
 use super::Cases;
-use nephrite::TriangleMesh;
-use nephrite::history::{History, NEVER};
-use nephrite::store::{Provenance, StoreOptions, write_to_with};
-use nephrite_formats::neph;
-use std::io::Cursor;
+use super::support::damage::with_section;
+use super::support::file_bytes_with;
+use nephrite::{History, NEVER, StoreOptions, TriangleMesh};
+use nephrite_formats::neph::{self, SectionKind};
 
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, -2.0]];
 
@@ -43,10 +42,8 @@ fn file(operations: &[u8]) -> Vec<u8> {
         errors: vec![0.0],
         ..History::default()
     };
-    let mut file = Cursor::new(Vec::new());
-    let (provenance, options) = (Provenance::default(), StoreOptions::default());
-    write_to_with(&mut file, &mesh, &history, &provenance, &options, operations).unwrap();
-    file.into_inner()
+    let file = file_bytes_with(&mesh, &history, &StoreOptions::default());
+    with_section(&file, SectionKind::Operations, operations)
 }
 
 /// One operation, a triangle of three new vertices, in one uncompressed block.

@@ -25,13 +25,11 @@ mod vtk;
 mod vtu;
 
 use corpus::{Case, Cases, Corpus, told, variant, variants};
-use nephrite::store::Provenance;
 use nephrite::{BuildError, VolumeOptions, build_volume};
 use nephrite_formats::{MeshError, VolumeFormat, read_volume};
 use serde_json::json;
 use served::served;
 use std::collections::BTreeSet;
-use std::ops::ControlFlow::Continue;
 use std::path::Path;
 
 fn corpus() -> Corpus {
@@ -76,14 +74,14 @@ fn outcome(path: &Path) -> String {
     for note in report.notes() {
         assert!(!note.contains(char::is_control) && note.len() < 300, "{note}");
     }
-    let build = match build_volume(&mesh, &VolumeOptions::default(), &|_| Continue(())) {
+    let build = match build_volume(&mesh, &VolumeOptions::default()) {
         Ok(build) => build,
         Err(error @ BuildError::NoTetrahedra { .. }) => return format!("refused: {}", variant(&error)),
         Err(error) => panic!("{}: {error}", path.display()),
     };
-    let lod = served(&build.mesh, &build.history, &Provenance::default());
+    let lod = served(|stream, options| build.write_to(stream, options));
     let tetrahedra = format!("{} tetrahedra", lod.at_level(0).n_simplices());
-    told(&tetrahedra, [json!(report), json!(build.repairs)], report.notes().into_iter())
+    told(&tetrahedra, [json!(report), json!(build.repairs())], report.notes().into_iter())
 }
 
 #[test]

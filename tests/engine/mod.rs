@@ -5,13 +5,20 @@
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
 
 use nephrite::geometry::vector::{Vector, add, distance_sq, dot, scale, sub};
-use nephrite::{Build, BuildOptions, History, TriangleMesh, build};
+use nephrite::{Build, BuildOptions, EstimateKind, History, JadeOptions, TriangleMesh, Vertices, build};
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
 
 /// Builds without watching.
 pub(crate) fn build_all(mesh: &TriangleMesh, options: &BuildOptions) -> Build {
-    build(mesh, options, &|_| ControlFlow::Continue(())).unwrap()
+    build(mesh, options).unwrap()
+}
+
+/// What JADE can be asked for: a proof, and each of the estimates.
+pub(crate) fn every_bound() -> [BuildOptions; 4] {
+    let estimate = |kind| BuildOptions::with(JadeOptions::estimate(kind));
+    let [joint, removed, accumulated] =
+        [EstimateKind::Joint, EstimateKind::Removed, EstimateKind::Accumulated].map(estimate);
+    [BuildOptions::default(), joint, removed, accumulated]
 }
 
 /// Triangles alive at `step`, by linear scan.
@@ -65,8 +72,8 @@ pub(crate) fn boundary_loops(triangles: &[[u32; 3]]) -> usize {
 }
 
 /// The corners of triangles over the vertices of `mesh`.
-pub(crate) fn corners_of(mesh: &TriangleMesh, triangles: &[[u32; 3]]) -> Vec<[Vector; 3]> {
-    let point = |v: u32| mesh.positions[v as usize].map(f64::from);
+pub(crate) fn corners_of(vertices: Vertices<'_>, triangles: &[[u32; 3]]) -> Vec<[Vector; 3]> {
+    let point = |v: u32| vertices.positions[v as usize].map(f64::from);
     triangles.iter().map(|t| t.map(point)).collect()
 }
 

@@ -50,6 +50,35 @@ impl Seal {
     }
 }
 
+/// A valid file with other contents of one section, which may be longer or shorter than before, or not there.
+pub fn with_section(bytes: &[u8], kind: SectionKind, content: &[u8]) -> Vec<u8> {
+    let seal = Seal::of(bytes);
+    let mut sections: Vec<(SectionKind, Vec<u8>)> = SectionKind::ALL
+        .into_iter()
+        .filter(|&other| other != kind && other != SectionKind::Checksums)
+        .map(|kind| (kind, seal.section(kind)))
+        .filter(|&(_, (offset, _))| offset > 0)
+        .map(|(kind, (offset, len))| (kind, bytes[offset..offset + len].to_vec()))
+        .collect();
+    sections.push((kind, content.to_vec()));
+    let lens: Vec<_> = sections.iter().map(|(kind, content)| (*kind, content.len() as u64)).collect();
+    let placement = neph::plan(&lens, seal.header().chunk_bytes).unwrap();
+    let mut file = vec![0; placement.file_bytes as usize];
+    for (record, (_, content)) in placement.records.iter().zip(&sections) {
+        file[record.offset as usize..][..content.len()].copy_from_slice(content);
+    }
+    let directory: &[u8] = bytemuck::cast_slice(&placement.records);
+    let header = Header {
+        n_sections: placement.records.len() as u32,
+        file_bytes: placement.file_bytes,
+        ..*seal.header()
+    };
+    file[..HEADER_BYTES].copy_from_slice(bytemuck::bytes_of(&header));
+    file[HEADER_BYTES..][..directory.len()].copy_from_slice(directory);
+    assert!(reseal(&mut file));
+    file
+}
+
 /// Corrects the checksums of any bytes, if their head is good enough to find them. Returns whether
 /// it is.
 pub fn reseal(bytes: &mut [u8]) -> bool {

@@ -2,9 +2,7 @@
 
 #![allow(clippy::cast_possible_truncation, reason = "counts of a build are u32")]
 
-use nephrite::Build;
-use nephrite::decimate::progressive::events::EventKind;
-use nephrite::history::NEVER;
+use nephrite::{Build, EventKind, NEVER};
 use std::collections::{HashMap, HashSet};
 
 /// Tells `fail` the first thing that is wrong: a coordinate that is not finite, an index out of
@@ -12,12 +10,12 @@ use std::collections::{HashMap, HashSet};
 /// that disagree about an edge although all of the input agreed and nothing has been attached yet,
 /// or triangles that are left at the end. Returns the number of steps.
 pub fn check(build: &Build, fail: impl Fn(String)) -> usize {
-    let history = &build.history;
+    let history = build.history();
     if let Err(error) = history.check() {
         fail(error.to_string());
     }
-    let n_vertices = build.mesh.positions.len();
-    if !build.mesh.positions.as_flattened().iter().all(|x| x.is_finite()) {
+    let n_vertices = build.vertices().positions.len();
+    if !build.vertices().positions.as_flattened().iter().all(|x| x.is_finite()) {
         fail("a coordinate is not finite".to_owned());
     }
     if history.simplices.as_flattened().iter().any(|&v| v as usize >= n_vertices) {
@@ -73,7 +71,7 @@ pub fn check(build: &Build, fail: impl Fn(String)) -> usize {
 
 /// Step of the first event that may bring edges of any orientation together.
 fn first_attachment(build: &Build) -> u32 {
-    let events = build.passage.iter().flat_map(|passage| &passage.events.events);
+    let events = build.progressive().into_iter().flat_map(|report| &report.events.events);
     let kinds = [EventKind::Attached, EventKind::HoleClosed];
     events.filter(|event| kinds.contains(&event.kind)).map(|event| event.step).next().unwrap_or(u32::MAX)
 }

@@ -9,9 +9,7 @@ pub mod faulty;
 pub mod served;
 pub mod synthetic;
 
-use nephrite::history::{History, Levels};
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{Lod, TriangleMesh};
+use nephrite::{History, Levels, Lod, StoreOptions, TriangleMesh};
 use std::io::Cursor;
 
 /// The bytes of a file, written to memory.
@@ -22,7 +20,7 @@ pub fn file_bytes(mesh: &TriangleMesh, history: &History<3>, levels: Option<u32>
 /// The bytes of a file with any options.
 pub fn file_bytes_with(mesh: &TriangleMesh, history: &History<3>, options: &StoreOptions) -> Vec<u8> {
     let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, mesh, history, &Provenance::default(), options).unwrap();
+    history.write_to(&mut stream, mesh, options).unwrap();
     stream.into_inner()
 }
 

@@ -2,18 +2,15 @@
 #![allow(unreachable_pub, reason = "a test file is no library")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use nephrite::store::{Provenance, StoreOptions, Vertices, write_to};
-use nephrite::{History, Lod};
+use nephrite::{Lod, StoreOptions, StoreReport, WriteError};
 use std::io::Cursor;
 
-/// The verified file that holds a history.
-pub fn served<'a, const CORNERS: usize>(
-    mesh: impl Into<Vertices<'a>>,
-    history: &History<CORNERS>,
-    provenance: &Provenance,
+/// The verified file that `write` makes.
+pub fn served(
+    write: impl FnOnce(&mut Cursor<Vec<u8>>, &StoreOptions) -> Result<StoreReport, WriteError>,
 ) -> Lod {
     let mut stream = Cursor::new(Vec::new());
-    write_to(&mut stream, mesh, history, provenance, &StoreOptions::default()).unwrap();
+    write(&mut stream, &StoreOptions::default()).unwrap();
     let lod = Lod::from_bytes(stream.get_ref()).unwrap();
     lod.verify().unwrap();
     lod

@@ -1,8 +1,9 @@
 //! What the engine has names for, as it is typed on the command line.
 
 use clap::ValueEnum;
+use nephrite::bound::estimate::EstimateKind;
 use nephrite::decimate::jade::Placement;
-use nephrite::{Bound, Method};
+use nephrite::decimate::progressive::ProgressiveBound;
 
 /// The decimators, as they are typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -13,16 +14,6 @@ pub(crate) enum MethodName {
     Fusion,
     /// Edge collapses and vertex splits that change the topology where they must: any reduction, down to no triangle
     Progressive,
-}
-
-impl From<MethodName> for Method {
-    fn from(name: MethodName) -> Self {
-        match name {
-            MethodName::Jade => Self::Jade,
-            MethodName::Fusion => Self::Fusion,
-            MethodName::Progressive => Self::Progressive,
-        }
-    }
 }
 
 /// The bounds, as they are typed.
@@ -38,13 +29,23 @@ pub(crate) enum BoundName {
     Accumulated,
 }
 
-impl From<BoundName> for Bound {
-    fn from(name: BoundName) -> Self {
-        match name {
-            BoundName::Certified => Self::Certified,
-            BoundName::Joint => Self::Joint,
-            BoundName::Removed => Self::Removed,
-            BoundName::Accumulated => Self::Accumulated,
+impl BoundName {
+    /// The estimate of JADE that has this name; `None` for a proof.
+    pub(crate) fn estimate(self) -> Option<EstimateKind> {
+        match self {
+            Self::Certified => None,
+            Self::Joint => Some(EstimateKind::Joint),
+            Self::Removed => Some(EstimateKind::Removed),
+            Self::Accumulated => Some(EstimateKind::Accumulated),
+        }
+    }
+
+    /// The bound of the progressive decimator that has this name, if one has.
+    pub(crate) fn of_progressive(self) -> Option<ProgressiveBound> {
+        match self {
+            Self::Certified => Some(ProgressiveBound::Certified),
+            Self::Accumulated => Some(ProgressiveBound::Accumulated),
+            Self::Joint | Self::Removed => None,
         }
     }
 }

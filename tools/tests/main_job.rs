@@ -184,8 +184,31 @@ fn vertices_move_when_asked_and_only_under_the_proof() {
     assert_eq!(moved["bounding_diagonal"], kept["bounding_diagonal"]);
     place.done("verify moved.neph --bound");
     assert!(place.done("info moved.neph").contains("best placement"));
-    let refused = place.failure("build in.ply -o no.neph --placement best --bound joint");
-    assert!(refused.contains("certified bound"), "{refused}");
+}
+
+/// Promise: a file that the program makes states its method and bound, and its errors are proven from it.
+#[test]
+fn the_demonstration_writes_a_file_whose_errors_are_proven() {
+    let place = Workplace::new();
+    place.done("demo -o demo");
+    let info = place.json("info demo/ripple.neph");
+    assert_eq!((&info["method"], &info["bound"]), (&"jade".into(), &"certified".into()));
+    assert_eq!(number(&info, "triangles_in"), 28_322.0);
+    assert!(info["repairs"].is_object() && info["options"].is_object(), "{info}");
+    place.done("verify demo/ripple.neph --bound --bound-levels 3");
+}
+
+#[test]
+fn constants_of_the_estimates_have_an_effect() {
+    let place = Workplace::new();
+    place.done("generate terrain --side 24 -o in.ply");
+    for (name, loss) in [("kept", 0.0), ("lost", 1.0)] {
+        place.done(&format!("build in.ply -o {name}.neph --bound joint --jade-aspect-loss {loss}"));
+        let info = place.json(&format!("info {name}.neph"));
+        assert_eq!(info["options"]["jade"]["aspect_loss"], loss);
+    }
+    let curve = |name: &str| place.json(&format!("info {name}.neph"))["curve"].clone();
+    assert_ne!(curve("kept"), curve("lost"));
 }
 
 #[test]

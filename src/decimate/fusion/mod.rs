@@ -34,3 +34,4 @@ mod unit;
 
 pub use options::FusionOptions;
 pub(crate) use run::run;
+pub use state::FusionReport;

@@ -55,7 +55,7 @@ pub(super) struct State {
 
 /// What a fusion tells beside the history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct FusionReport {
+pub struct FusionReport {
     /// Fusions made.
     pub n_fusions: usize,
     /// Those of tetrahedra among them, which come first.

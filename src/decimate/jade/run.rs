@@ -12,7 +12,7 @@ use super::removal::Plan;
 use super::state::State;
 use super::thresholds::Thresholds;
 use super::worklists::{Candidates, Stage};
-use crate::bound::{Bound, Limits};
+use crate::bound::Limits;
 use crate::decimate::{Decimated, Input, Stopped, Watch};
 use crate::geometry::bounds::bounding_diagonal;
 use crate::mesh::{Repaired, TooMany};
@@ -38,13 +38,12 @@ const LEFT_OVER_DIVISOR: usize = 3;
 /// [`Stopped`]: `watch` broke, or the proof has outgrown ids of 32 bits.
 pub(crate) fn run(
     input: Input<Repaired>,
-    bound: Bound,
     options: &JadeOptions,
     watch: Watch<'_>,
 ) -> Result<Decimated<TriangleMesh, 3, ()>, Stopped> {
     let diagonal = bounding_diagonal(&input.mesh.mesh.positions);
     let thresholds = input.may_change().then(|| Thresholds::new(input.max_error, diagonal, options));
-    let mut state = State::new(input, bound, options);
+    let mut state = State::new(input, options);
     if let Some(thresholds) = thresholds {
         remove_under_rising_limits(&mut state, thresholds, watch)?;
     }

@@ -3,7 +3,7 @@
 use super::candidate::{Scratch, Situation};
 use super::names::Names;
 use super::options::{JadeOptions, Placement};
-use crate::bound::{Bound, GlobalError};
+use crate::bound::GlobalError;
 use crate::decimate::{Decimated, Input, add_copies};
 use crate::geometry::bounds::Bounds;
 use crate::history::Recorder;
@@ -35,12 +35,12 @@ pub struct State {
 
 impl State {
     /// The state at step 0. O(n log n).
-    pub(super) fn new(input: Input<Repaired>, bound: Bound, options: &JadeOptions) -> Self {
+    pub(super) fn new(input: Input<Repaired>, options: &JadeOptions) -> Self {
         let Input { mesh: Repaired { mesh: mut rest, points, looks, .. }, cos_feature_angle, .. } = input;
         let numbering = Numbering::along_curve(&rest.positions);
         let mut triangles = std::mem::take(&mut rest.triangles);
         numbering.sort_triangles(&mut triangles);
-        let moves = match options.placement {
+        let moves = match options.placement() {
             Placement::Original => None,
             Placement::Best => Some(Moves::new(&rest.positions, triangles.len())),
         };
@@ -52,10 +52,10 @@ impl State {
         }
         let surface = Surface::new(positions, triangles);
         Self {
-            error: GlobalError::new(bound, &surface, rest.rounding),
+            error: GlobalError::new(options.estimate_kind(), &surface, rest.rounding),
             recorder: Recorder::new(surface.n_slots(), surface.n_vertices(), rest.rounding),
             surface,
-            names: Names::new(numbering, seams, options.placement),
+            names: Names::new(numbering, seams, options.placement()),
             cos_feature_angle,
             options: *options,
             moves,
@@ -71,7 +71,7 @@ impl State {
             names: &self.names,
             error: &self.error,
             cos_feature_angle: self.cos_feature_angle,
-            aspect_loss: self.options.aspect_loss,
+            aspect_loss: self.options.aspect_loss(),
         }
     }
 

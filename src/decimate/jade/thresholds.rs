@@ -28,10 +28,15 @@ pub struct Thresholds {
 impl Thresholds {
     /// Limits up to `max_error`, or without end, for a mesh with the given bounding diagonal.
     pub fn new(max_error: Option<f64>, diagonal: f64, options: &JadeOptions) -> Self {
-        let start = max_error.unwrap_or(START * diagonal) / options.k;
+        let start = max_error.unwrap_or(START * diagonal) / options.k_value();
         let target = max_error.unwrap_or(f64::INFINITY);
         // From nothing no factor would lead anywhere.
-        Self { local: start.max(f64::MIN_POSITIVE).min(target), target, c1: options.c1, c2: options.c2 }
+        Self {
+            local: start.max(f64::MIN_POSITIVE).min(target),
+            target,
+            c1: options.c1_value(),
+            c2: options.c2,
+        }
     }
 
     /// The limits of this iteration.
@@ -85,7 +90,8 @@ mod tests {
 
     #[test]
     fn limits_follow_the_formula_and_end_at_the_target() {
-        let JadeOptions { k, c1, c2, .. } = JadeOptions::default();
+        let options = JadeOptions::default();
+        let (k, c1, c2) = (options.k_value(), options.c1_value(), options.c2);
         let target = 2.0;
         let limits = all(Some(target), 100.0);
         for (j, limit) in (0..).zip(&limits) {
@@ -116,7 +122,7 @@ mod tests {
 
     #[test]
     fn the_finest_steps_from_the_least_start_come_to_an_end() {
-        let options = JadeOptions { k: MAX_K, c1: MIN_C1, ..JadeOptions::default() };
+        let options = JadeOptions { k: Some(MAX_K), c1: Some(MIN_C1), ..JadeOptions::default() };
         for (max_error, diagonal) in [(None, 0.0), (Some(f64::MAX), 1.0), (Some(1e-300), 1.0)] {
             let mut thresholds = Thresholds::new(max_error, diagonal, &options);
             let needed = max_error.unwrap_or(f64::MAX);
@@ -128,7 +134,7 @@ mod tests {
     fn iterations_that_could_admit_nothing_are_skipped() {
         let mut thresholds = Thresholds::new(None, 100.0, &JadeOptions::default());
         let limits = thresholds.advance(0.1).unwrap();
-        assert!(limits.local >= 0.1 && limits.local < 0.1 * JadeOptions::default().c1);
+        assert!(limits.local >= 0.1 && limits.local < 0.1 * JadeOptions::default().c1_value());
         assert_eq!(thresholds.advance(f64::INFINITY), None);
     }
 }

@@ -13,7 +13,7 @@ use super::split::Pieces;
 use super::turns::{Judge, Scratch, Turn, Verdict, judge_all, n_at_once};
 use super::view::{Place, View};
 use super::wedges::Wedges;
-use super::{Passage, ProgressiveOptions};
+use super::{ProgressiveOptions, ProgressiveReport};
 use crate::history::{History, Recorder};
 use rayon::prelude::*;
 
@@ -160,14 +160,14 @@ impl Decimation {
     }
 
     /// The history, and all else that is left.
-    pub fn finish(self) -> (History, Passage) {
+    pub fn finish(self) -> (History, ProgressiveReport) {
         let Self {
             complex, journal: Journal { recorder, trace, .. }, wedges, events, n_proven, counts, ..
         } = self;
         let vertices = |slot: u32, corners| wedges.as_ref().map_or(corners, |wedges| wedges.corners(slot));
         let alive: Vec<_> = complex.iter().map(|(slot, corners)| (slot, vertices(slot, corners))).collect();
         let history = recorder.finish(&alive);
-        (history, Passage { trace, events, counts, n_certified_steps: n_proven })
+        (history, ProgressiveReport { trace, events, counts, n_certified_steps: n_proven })
     }
 
     /// What to do next: the vertex with the least error is collapsed. Splits wait until there is no collapse left; from then on,

@@ -18,6 +18,7 @@ pub mod decimation;
 pub mod error;
 pub mod events;
 pub mod journal;
+mod options;
 pub mod proof;
 pub mod queue;
 pub mod ring;
@@ -32,21 +33,12 @@ pub mod wedges;
 pub use decimation::{Decimation, Settings};
 use events::EventLog;
 use journal::{Counts, Trace};
+pub use options::{ProgressiveBound, ProgressiveOptions};
 pub(crate) use run::run;
-
-/// How far the decimator goes, and how it splits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct ProgressiveOptions {
-    /// Part of the triangles to remove, from 0 to 1; `None` for all of them.
-    pub reduction: Option<f64>,
-    /// Split along feature edges, at corners and at non-manifold vertices before anything else (section 4.9): better for
-    /// large flat faces with thin sides between them.
-    pub pre_split: bool,
-}
 
 /// What this decimator leaves beside the history.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Passage {
+pub struct ProgressiveReport {
     /// All operations.
     pub trace: Trace,
     /// All changes of topology.

@@ -2,24 +2,22 @@
 
 use super::complex::Complex;
 use super::wedges::Wedges;
-use super::{Decimation, Passage, ProgressiveOptions, Settings};
-use crate::bound::Bound;
+use super::{Decimation, ProgressiveBound, ProgressiveOptions, ProgressiveReport, Settings};
 use crate::decimate::{Decimated, Input, Stopped, Watch, add_copies};
 use crate::mesh::{Repaired, along_a_curve};
 use nephrite_formats::TriangleMesh;
 
 /// Decimates a mesh until the reduction asked for is reached or the error would be too large. The
-/// bound is proven for as long as it can be if it is to be [`Bound::Certified`].
+/// bound is proven for as long as it can be if it is to be [certified](ProgressiveBound::Certified).
 ///
 /// # Errors
 ///
 /// [`Stopped`] when `watch` breaks.
 pub(crate) fn run(
     input: Input<Repaired>,
-    bound: Bound,
     options: &ProgressiveOptions,
     watch: Watch<'_>,
-) -> Result<Decimated<TriangleMesh, 3, Passage>, Stopped> {
+) -> Result<Decimated<TriangleMesh, 3, ProgressiveReport>, Stopped> {
     let may_change = input.may_change();
     let Input { mesh, max_error, cos_feature_angle } = input;
     let Repaired { mut mesh, points, looks, .. } = along_a_curve(mesh);
@@ -27,7 +25,7 @@ pub(crate) fn run(
         cos_feature_angle,
         max_error: max_error.unwrap_or(f64::INFINITY),
         rounding: mesh.rounding,
-        proves: bound == Bound::Certified,
+        proves: options.bound == ProgressiveBound::Certified,
         options: *options,
     };
     let (triangles, wedges) = part_wedges(mesh.triangles.clone(), points, looks);

@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use nephrite::decimate::jade::{JadeOptions, MAX_K, MIN_C1};
+use nephrite::decimate::jade::{JadeBound, JadeOptions, MAX_K, MIN_C1};
 use nephrite::decimate::progressive::ProgressiveOptions;
-use nephrite::progressive_mesh::encode;
-use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
-use nephrite::{Build, BuildOptions, TriangleMesh};
+use nephrite::store::{self, StoreOptions, StoreReport};
+use nephrite::{Build, BuildOptions, Decimator, TriangleMesh};
 use nephrite_formats::{FileReport, VolumeFormat};
 use serde_json::{Value, json};
 
@@ -100,18 +99,14 @@ struct JadeArguments {
     #[arg(long = "jade-c1", value_name = "C1", value_parser = jade_c1)]
     c1: Option<f64>,
 
-    /// Limit on the global error as a multiple of that on the local error
-    #[arg(long = "jade-c2", value_name = "C2", default_value_t = JadeOptions::default().c2, value_parser = from_one_to_sixteen)]
-    c2: f64,
+    /// Limit on the global error as a multiple of that on the local error; 1.2 by default
+    #[arg(long = "jade-c2", value_name = "C2", value_parser = from_one_to_sixteen)]
+    c2: Option<f64>,
 
-    /// How much worse than before a flipped edge may make the aspect ratio, as a part of it
-    #[arg(
-        long = "jade-aspect-loss",
-        value_name = "PART",
-        default_value_t = JadeOptions::default().aspect_loss,
-        value_parser = part
-    )]
-    aspect_loss: f64,
+    /// How much worse than before a flipped edge may make the aspect ratio, as a part of it; 0.5 by default. Only the estimates
+    /// have edges flipped
+    #[arg(long = "jade-aspect-loss", value_name = "PART", value_parser = part)]
+    aspect_loss: Option<f64>,
 }
 
 /// How far the progressive decimator goes.
@@ -130,6 +125,62 @@ struct ProgressiveArguments {
     /// Store the operations as well, from which the mesh can be built up one by one while they arrive
     #[arg(long)]
     operations: bool,
+}
+
+impl JadeArguments {
+    fn options(&self, bound: BoundName) -> Result<JadeOptions, Failure> {
+        let usual = match (bound.estimate(), self.placement, self.aspect_loss) {
+            (None, placement, None) => JadeOptions::certified(placement.into()),
+            (Some(kind), PlacementName::Original, None) => JadeOptions::estimate(kind),
+            (Some(kind), PlacementName::Original, Some(aspect_loss)) => {
+                JadeOptions { bound: JadeBound::Estimate { kind, aspect_loss }, ..JadeOptions::default() }
+            }
+            (Some(_), PlacementName::Best, _) => {
+                return Err(needs("--placement best", "--bound certified"));
+            }
+            (None, _, Some(_)) => {
+                return Err(needs("--jade-aspect-loss", "--bound joint, removed or accumulated"));
+            }
+        };
+        Ok(JadeOptions { k: self.k, c1: self.c1, c2: self.c2.unwrap_or(usual.c2), ..usual })
+    }
+
+    /// Nothing where none of these options was given.
+    fn refuse_beside(&self, wanted: &str) -> Result<(), Failure> {
+        let given = [
+            ("--placement best", self.placement == PlacementName::Best),
+            ("--jade-k", self.k.is_some()),
+            ("--jade-c1", self.c1.is_some()),
+            ("--jade-c2", self.c2.is_some()),
+            ("--jade-aspect-loss", self.aspect_loss.is_some()),
+        ];
+        refuse(given, wanted)
+    }
+}
+
+impl ProgressiveArguments {
+    /// Nothing where none of these options was given.
+    fn refuse_beside(&self, wanted: &str) -> Result<(), Failure> {
+        let given = [
+            ("--reduction", self.reduction.is_some()),
+            ("--pre-split", self.pre_split),
+            ("--operations", self.operations),
+        ];
+        refuse(given, wanted)
+    }
+}
+
+/// Fails with the first option that was given.
+fn refuse<const N: usize>(given: [(&str, bool); N], wanted: &str) -> Result<(), Failure> {
+    match given.into_iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(needs(option, wanted)),
+        None => Ok(()),
+    }
+}
+
+/// An option that has no meaning without another one.
+fn needs(option: &str, wanted: &str) -> Failure {
+    Failure::usage(format!("{option} needs {wanted}; see nephrite build --help"))
 }
 
 /// A finite number of which something holds.
@@ -197,25 +248,50 @@ impl Arguments {
         Self { mesh: part.to_owned(), output: Some(output.to_owned()), ..self.clone() }
     }
 
-    pub(super) fn options(&self, bounding_diagonal: f64) -> BuildOptions {
-        let JadeArguments { placement, k, c1, c2, aspect_loss } = self.jade;
-        let jade = JadeOptions::of_placement(placement.into());
-        let jade = JadeOptions { k: k.unwrap_or(jade.k), c1: c1.unwrap_or(jade.c1), c2, aspect_loss, ..jade };
-        let ProgressiveArguments { reduction, pre_split, .. } = self.progressive;
-        BuildOptions {
-            method: self.method.into(),
-            bound: self.bound.into(),
+    /// What the build of a surface is asked for.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Usage`] for options that do not go together.
+    pub(super) fn options(&self, bounding_diagonal: f64) -> Result<BuildOptions, Failure> {
+        let decimator = match self.method {
+            MethodName::Progressive => {
+                self.jade.refuse_beside("--method jade")?;
+                let ProgressiveArguments { reduction, pre_split, .. } = self.progressive;
+                let bound = self
+                    .bound
+                    .of_progressive()
+                    .ok_or_else(|| needs("--bound joint or removed", "--method jade"))?;
+                Decimator::Progressive(ProgressiveOptions { bound, reduction, pre_split })
+            }
+            MethodName::Jade | MethodName::Fusion => {
+                self.progressive.refuse_beside("--method progressive")?;
+                Decimator::Jade(self.jade.options(self.bound)?)
+            }
+        };
+        let usual = BuildOptions::with(decimator);
+        Ok(BuildOptions {
             max_error: self.max_error.map(|length| length.in_mesh_units(bounding_diagonal)),
-            feature_angle_degrees: self
-                .feature_angle
-                .unwrap_or(BuildOptions::default().feature_angle_degrees),
-            jade,
-            progressive: ProgressiveOptions { reduction, pre_split },
+            feature_angle_degrees: self.feature_angle.unwrap_or(usual.feature_angle_degrees),
+            ..usual
+        })
+    }
+
+    /// What the file is to keep.
+    pub(super) fn stored(&self) -> StoreOptions {
+        StoreOptions {
+            levels: self.levels,
+            window_levels: self.window_levels,
+            is_compact: self.compact,
+            operations: self.progressive.operations,
         }
     }
 
-    pub(super) fn stored(&self) -> StoreOptions {
-        StoreOptions { levels: self.levels, window_levels: self.window_levels, is_compact: self.compact }
+    /// All that decides what a file holds, in one text.
+    pub(super) fn key(&self) -> String {
+        let Self { max_error, feature_angle, method, bound, jade, fusion, progressive, .. } = self;
+        let options = (max_error, feature_angle, method, bound, jade, fusion, progressive);
+        format!("{options:?} {:?}", self.stored())
     }
 
     /// Whether the input is a volume, by its name or by the method.
@@ -242,6 +318,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         return arguments.threads.run(|| database::run(arguments, folder))?;
     }
     arguments.check_output()?;
+    // Told before a file is read.
+    arguments.options(1.0)?;
     arguments.threads.run(|| {
         if arguments.is_of_volume() {
             return arguments.volume().run();
@@ -251,7 +329,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
         let input = Input::of(&mesh);
         let build = decimate(arguments, mesh, input.bounding_diagonal)?;
         interrupt::check()?;
-        let stored = write(arguments, input, &build)?;
+        let stored = build.write(arguments.output(), &arguments.stored());
+        let stored = stored.map_err(|source| Failure::file(arguments.output(), source))?;
         let outcome = Outcome { input, read, build, stored, seconds: start.elapsed().as_secs_f64() };
         Ok(Report { text: outcome.text(arguments), json: outcome.json() })
     })?
@@ -280,39 +359,9 @@ impl Input {
 fn decimate(arguments: &Arguments, mesh: TriangleMesh, bounding_diagonal: f64) -> Result<Build, Failure> {
     store::check_attributes(&mesh).map_err(|source| Failure::file(&arguments.mesh, source))?;
     let bar = BuildBar::new(bounding_diagonal);
-    let options = arguments.options(bounding_diagonal);
-    nephrite::build_from(mesh, &options, &|progress| bar.observe(progress))
+    let options = arguments.options(bounding_diagonal)?;
+    nephrite::build_with(mesh, &options, &|progress| bar.observe(progress))
         .map_err(|source| Failure::build(&arguments.mesh, source))
-}
-
-/// Publishes the file, with all that a reader may want to know of its making.
-pub(super) fn write(arguments: &Arguments, input: Input, build: &Build) -> Result<StoreReport, Failure> {
-    let options = arguments.options(input.bounding_diagonal);
-    let provenance = Provenance {
-        method: name(&options.method),
-        bound: name(&options.bound),
-        max_error: options.max_error,
-        n_vertices_in: input.n_vertices as u64,
-        n_simplices_in: input.n_triangles as u64,
-        options: json!(options),
-        repairs: json!(build.repairs),
-        certified_simplices: build.n_certified_triangles().map(|n| n as u64),
-        topology: build.passage.as_ref().map_or(Value::Null, |passage| json!(passage.events)),
-    };
-    let stored = arguments.stored();
-    let operations = match build.passage {
-        Some(_) if arguments.progressive.operations => {
-            encode(build).map_err(|source| Failure::file(arguments.output(), source))?.bytes
-        }
-        _ => Vec::new(),
-    };
-    store::write_with(arguments.output(), &build.mesh, &build.history, &provenance, &stored, &operations)
-        .map_err(|source| Failure::file(arguments.output(), source))
-}
-
-/// The name that a choice has in JSON.
-fn name(choice: &impl serde::Serialize) -> String {
-    json!(choice).as_str().unwrap_or_default().to_owned()
 }
 
 /// A build that is done.
@@ -338,18 +387,18 @@ impl Outcome {
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
             "notes": self.read.notes(),
-            "repairs": self.build.repairs,
-            "dropped_distance": self.build.dropped_distance,
+            "repairs": self.build.repairs(),
+            "dropped_distance": self.build.dropped_distance(),
             "certified_triangles": self.build.n_certified_triangles(),
-            "operations": self.build.passage.as_ref().map(|passage| &passage.counts),
+            "operations": self.build.progressive().map(|report| &report.counts),
         })
     }
 
     /// What the repair did, and how far what it dropped lies from the rest.
     fn repaired(&self) -> String {
-        let tally = figures::tally(&json!(self.build.repairs));
-        if self.build.dropped_distance > 0.0 {
-            let distance = figures::error(self.build.dropped_distance, self.input.bounding_diagonal);
+        let tally = figures::tally(&json!(self.build.repairs()));
+        if self.build.dropped_distance() > 0.0 {
+            let distance = figures::error(self.build.dropped_distance(), self.input.bounding_diagonal);
             format!(
                 "{tally}; what was dropped lies up to {distance} from the rest, which every level's error counts"
             )

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use nephrite::decimate::fusion::FusionOptions;
-use nephrite::store::{self, Provenance, StoreOptions, StoreReport};
+use nephrite::store::{self, StoreOptions, StoreReport};
 use nephrite::{TetrahedronMesh, VolumeBuild, VolumeOptions};
 use nephrite_formats::FileReport;
 use serde_json::{Value, json};
@@ -78,7 +78,7 @@ impl Request<'_> {
         let (mesh, read) = files::read_volume(self.input, &self.fusion.solution)?;
         interrupt::check()?;
         let (n_tetrahedra, n_vertices) = (mesh.tetrahedra.len(), mesh.positions.len());
-        let bounding_diagonal = nephrite::volume::bounding_diagonal(&mesh);
+        let bounding_diagonal = nephrite::bounding_diagonal(&mesh);
         let options = self.options(bounding_diagonal);
         let fusing = Instant::now();
         let half = OnceLock::new();
@@ -87,18 +87,8 @@ impl Request<'_> {
         let half_seconds = half.get().map(|then: &Instant| then.duration_since(fusing).as_secs_f64());
         drop(mesh);
         interrupt::check()?;
-        let provenance = Provenance {
-            method: "fusion".to_owned(),
-            bound: "boundary".to_owned(),
-            max_error: options.max_error,
-            n_vertices_in: n_vertices as u64,
-            n_simplices_in: n_tetrahedra as u64,
-            options: json!(options),
-            repairs: json!(build.repairs),
-            ..Provenance::default()
-        };
-        let stored = store::write(self.output, &build.mesh, &build.history, &provenance, &self.stored)
-            .map_err(|source| Failure::file(self.output, source))?;
+        let stored = build.write(self.output, &self.stored);
+        let stored = stored.map_err(|source| Failure::file(self.output, source))?;
         let sizes = [n_tetrahedra, n_vertices];
         let seconds = [build_seconds, start.elapsed().as_secs_f64()];
         let outcome = Outcome { sizes, read, build, stored, bounding_diagonal, seconds, half_seconds };
@@ -114,7 +104,7 @@ impl Request<'_> {
     ) -> Result<VolumeBuild, Failure> {
         store::check_attributes(mesh).map_err(|source| Failure::file(self.input, source))?;
         let bar = BuildBar::new(bounding_diagonal);
-        let build = nephrite::build_volume(mesh, options, &|progress| {
+        let build = nephrite::build_volume_with(mesh, options, &|progress| {
             if 2 * progress.n_triangles <= progress.n_triangles_in {
                 half.get_or_init(Instant::now);
             }
@@ -142,11 +132,12 @@ impl Outcome {
     /// Tetrahedra that a fusion took away on average.
     #[expect(clippy::cast_precision_loss, reason = "two decimals are printed")]
     fn per_fusion(&self) -> [f64; 2] {
-        let n_left =
-            self.build.history.death.iter().filter(|&&death| death == nephrite::history::NEVER).count();
-        let n_repaired = self.build.mesh.tetrahedra.len();
-        let [of_tetrahedra, all] = [self.build.n_tetrahedron_fusions, self.build.n_fusions];
-        let n_left_then = self.build.n_left_by_tetrahedra;
+        let history = self.build.history();
+        let n_left = history.death.iter().filter(|&&death| death == nephrite::history::NEVER).count();
+        let n_repaired = history.n_alive(0);
+        let fusions = self.build.fusions();
+        let [of_tetrahedra, all] = [fusions.n_tetrahedron_fusions, fusions.n_fusions];
+        let n_left_then = fusions.n_left_by_tetrahedra;
         [
             (n_repaired - n_left_then) as f64 / of_tetrahedra.max(1) as f64,
             (n_repaired - n_left) as f64 / all.max(1) as f64,
@@ -155,7 +146,7 @@ impl Outcome {
 
     fn deviations(&self) -> Value {
         let last = |values: &Vec<f64>| values.last().copied().unwrap_or(0.0);
-        let deviations = self.build.history.deviations.iter();
+        let deviations = self.build.history().deviations.iter();
         deviations.map(|deviation| (deviation.name.clone(), json!(last(&deviation.values)))).collect()
     }
 
@@ -168,9 +159,9 @@ impl Outcome {
             "coarsest_tetrahedra": self.stored.n_coarsest,
             "max_error": self.stored.max_error,
             "bounding_diagonal": self.bounding_diagonal,
-            "fusions": self.build.n_fusions,
-            "tetrahedron_fusions": self.build.n_tetrahedron_fusions,
-            "tetrahedra_left_by_tetrahedron_fusions": self.build.n_left_by_tetrahedra,
+            "fusions": self.build.fusions().n_fusions,
+            "tetrahedron_fusions": self.build.fusions().n_tetrahedron_fusions,
+            "tetrahedra_left_by_tetrahedron_fusions": self.build.fusions().n_left_by_tetrahedra,
             "tetrahedra_per_tetrahedron_fusion": self.per_fusion()[0],
             "tetrahedra_per_fusion": self.per_fusion()[1],
             "deviations": self.deviations(),
@@ -180,7 +171,7 @@ impl Outcome {
             "file_bytes": self.stored.file_bytes,
             "reading": self.read,
             "notes": self.read.notes(),
-            "repairs": self.build.repairs,
+            "repairs": self.build.repairs(),
         })
     }
 
@@ -193,14 +184,14 @@ impl Outcome {
         let list = figures::list(&[
             ("volume", size(self.sizes[0], self.sizes[1])),
             ("read", figures::reading(&self.read)),
-            ("repaired", figures::tally(&json!(build.repairs))),
+            ("repaired", figures::tally(&json!(build.repairs()))),
             (
                 "fusions",
                 format!(
                     "{} of tetrahedra, {per_tetrahedron:.1} tetrahedra each (13.9 to 16.1 in the paper), {} of edges; {per_fusion:.1} each \
                      in all",
-                    figures::count(build.n_tetrahedron_fusions),
-                    figures::count(build.n_fusions - build.n_tetrahedron_fusions)
+                    figures::count(build.fusions().n_tetrahedron_fusions),
+                    figures::count(build.fusions().n_fusions - build.fusions().n_tetrahedron_fusions)
                 ),
             ),
             (

@@ -19,7 +19,7 @@ use nephrite_formats::{FileReport, MeshFormat, VolumeFormat, neph, read_input};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::build::{Arguments, Input, write};
+use super::build::{Arguments, Input};
 use super::manifest::{Facts, Line, Manifest};
 use crate::failure::Failure;
 use crate::report::{self, Report};
@@ -31,6 +31,8 @@ const MAX_CURVE_POINTS: usize = 32;
 /// Builds every part that is new or has changed.
 pub(super) fn run(arguments: &Arguments, folder: &Path) -> Result<Report, Failure> {
     let start = Instant::now();
+    // Told before a folder is made.
+    arguments.options(1.0)?;
     let listed = Parts::list(arguments.parts(), folder)?;
     fs::create_dir_all(folder).map_err(|source| Failure::file(folder, source))?;
     let parts = &listed.parts;
@@ -223,8 +225,7 @@ fn build_part(
         Err(error) => return Some(fail(error.to_string())),
     };
     let content = format!("{:016x}", neph::checksum(&bytes));
-    let options = format!("{} {:?}", json!(arguments.options(1.0)), arguments.stored());
-    let options = format!("{:016x}", neph::checksum(options.as_bytes()));
+    let options = format!("{:016x}", neph::checksum(arguments.key().as_bytes()));
     let facts = Facts { output: output.to_string_lossy().into_owned(), content, options };
     if let Some(known) = known {
         let file_bytes = fs::metadata(output).map(|metadata| metadata.len()).ok();
@@ -263,17 +264,18 @@ fn build_one(arguments: &Arguments, bytes: Vec<u8>) -> Result<Value, Failure> {
     let go_on = |_: &nephrite::Progress| {
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let options = arguments.options(input.bounding_diagonal);
-    let build = nephrite::build_from(mesh, &options, &go_on)
+    let options = arguments.options(input.bounding_diagonal)?;
+    let build = nephrite::build_with(mesh, &options, &go_on)
         .map_err(|source| Failure::build(arguments.mesh(), source))?;
-    let stored = write(arguments, input, &build)?;
+    let stored = build.write(arguments.output(), &arguments.stored());
+    let stored = stored.map_err(|source| Failure::file(arguments.output(), source))?;
     Ok(json!({
         "triangles_in": input.n_triangles,
         "vertices_in": input.n_vertices,
         "levels": stored.n_levels,
         "coarsest_triangles": stored.n_coarsest,
         "file_bytes": stored.file_bytes,
-        "curve": curve(arguments, &build.history)?,
+        "curve": curve(arguments, build.history())?,
         "notes": read.notes(),
         "seconds": start.elapsed().as_secs_f64(),
     }))

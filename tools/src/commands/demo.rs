@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use nephrite::history::History;
-use nephrite::store::{self, Provenance, StoreOptions};
+use nephrite::store::StoreOptions;
 use nephrite::{Build, BuildOptions, Cut, Lod, generate};
 use serde_json::{Value, json};
 
@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     let build = arguments.threads.run(build)??;
     let build_time = start.elapsed();
     let file = folder.join("ripple.neph");
-    write(&file, &build)?;
+    build.write(&file, &StoreOptions::default()).map_err(|source| Failure::file(&file, source))?;
     let lod = files::open_file(&file)?;
     let mut rows = Vec::new();
     for (percent, mesh_name) in ROWS {
@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
             let mesh = cut.to_mesh().map_err(|source| Failure::file(&file, source))?;
             nephrite_formats::write_mesh(path, &mesh)?;
         }
-        rows.push(Row::measure(percent, cut, &build.history, mesh_path));
+        rows.push(Row::measure(percent, cut, build.history(), mesh_path));
     }
     Ok(Report { text: text(&lod, &rows, &file, build_time), json: json(&lod, &rows, build_time) })
 }
@@ -69,19 +69,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
 fn build() -> Result<Build, Failure> {
     let mesh = generate::cosine(SIDE);
     let bar = BuildBar::new(nephrite::bounding_diagonal(&mesh));
-    nephrite::build(&mesh, &BuildOptions::default(), &|progress| bar.observe(progress))
+    nephrite::build_with(mesh, &BuildOptions::default(), &|progress| bar.observe(progress))
         .map_err(|source| Failure::build("the built-in surface", source))
-}
-
-fn write(file: &Path, build: &Build) -> Result<(), Failure> {
-    let provenance = Provenance {
-        n_vertices_in: build.mesh.positions.len() as u64,
-        n_simplices_in: build.mesh.triangles.len() as u64,
-        options: json!(BuildOptions::default()),
-        ..Provenance::default()
-    };
-    let stored = store::write(file, &build.mesh, &build.history, &provenance, &StoreOptions::default());
-    stored.map(drop).map_err(|source| Failure::file(file, source))
 }
 
 /// One line of the table.
@@ -140,12 +129,7 @@ impl Row {
 fn scan(history: &History, error: f64, triangles: &mut Vec<[u32; 3]>) {
     triangles.clear();
     let step = history.errors.partition_point(|&stated| stated <= error).saturating_sub(1);
-    let lifetimes = history.birth.iter().zip(&history.death);
-    for (triangle, (&birth, &death)) in history.simplices.iter().zip(lifetimes) {
-        if birth as usize <= step && step < death as usize {
-            triangles.push(*triangle);
-        }
-    }
+    triangles.extend(history.alive(u32::try_from(step).unwrap_or(u32::MAX)));
 }
 
 fn text(lod: &Lod, rows: &[Row], file: &Path, build_time: Duration) -> String {

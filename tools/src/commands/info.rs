@@ -3,7 +3,7 @@
 use clap::Args;
 use nephrite::Lod;
 use nephrite::query::INFLECTION_RATIO;
-use nephrite::store::{Metadata, Provenance};
+use nephrite::store::Metadata;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
@@ -36,8 +36,8 @@ fn json(lod: &Lod, metadata: &Metadata) -> Value {
         .map(|view| json!({ "name": view.name, "scalar": view.scalar, "components": view.n_components }))
         .collect();
     json!({
-        (format!("{simplex}_in")): metadata.provenance.n_simplices_in,
-        "vertices_in": metadata.provenance.n_vertices_in,
+        (format!("{simplex}_in")): metadata.n_simplices_in,
+        "vertices_in": metadata.n_vertices_in,
         (format!("{simplex}_stored")): lod.n_lifetimes(),
         "levels": lod.n_levels(),
         (format!("coarsest_{simplex}")): coarsest.map(|point| point.simplices),
@@ -48,13 +48,13 @@ fn json(lod: &Lod, metadata: &Metadata) -> Value {
         "rounding": lod.rounding(),
         "attributes": attributes,
         "generator": metadata.generator,
-        "method": metadata.provenance.method,
-        "bound": metadata.provenance.bound,
-        "options": metadata.provenance.options,
-        "repairs": metadata.provenance.repairs,
+        "method": metadata.method,
+        "bound": metadata.bound,
+        "options": metadata.options,
+        "repairs": metadata.repairs,
         "deviations": deviations(lod),
-        (format!("certified_{simplex}")): metadata.provenance.certified_simplices,
-        "topology": metadata.provenance.topology,
+        (format!("certified_{simplex}")): metadata.certified_simplices,
+        "topology": metadata.topology,
         "inflections": inflections(lod),
         "curve": points,
     })
@@ -67,14 +67,13 @@ fn deviations(lod: &Lod) -> Vec<Value> {
 }
 
 fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
-    let Provenance { method, bound, n_vertices_in, n_simplices_in, repairs, .. } = &metadata.provenance;
+    let Metadata { method, bound, n_vertices_in, n_simplices_in, repairs, .. } = metadata;
     let simplex = lod.simplex();
-    let bound = match metadata.provenance.certified_simplices {
+    let bound = match metadata.certified_simplices {
         Some(n) => format!("{bound} down to {}, then accumulated", figures::simplices(n, simplex)),
-        None => bound.clone(),
+        None => bound.to_string(),
     };
-    let moved =
-        if metadata.provenance.options["jade"]["placement"] == "best" { ", best placement" } else { "" };
+    let moved = if metadata.options["jade"]["placement"] == "best" { ", best placement" } else { "" };
     let attributes: Vec<_> = lod.attributes().map(|view| view.name.to_owned()).collect();
     let list = figures::list(&[
         (
@@ -88,7 +87,7 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
         ("attributes", if attributes.is_empty() { "none".to_owned() } else { attributes.join(", ") }),
         ("repaired", figures::tally(repairs)),
         ("diagonal", figures::significant(lod.bounding_diagonal())),
-        ("topology", topology(&metadata.provenance.topology)),
+        ("topology", topology(&metadata.topology)),
         ("error leaps", inflection_list(lod)),
         ("built by", format!("{}, {method}, bound {bound}{moved}", metadata.generator)),
         (

@@ -53,9 +53,6 @@ pub enum BuildError {
         /// How many there may be.
         limit: usize,
     },
-    /// Fusion was asked for of a surface.
-    #[error("a surface has no tetrahedra to fuse")]
-    NotAVolume,
     /// An option has no meaning.
     #[error("{option} must be {expected}, found {found}")]
     Option {
@@ -66,19 +63,6 @@ pub enum BuildError {
         /// What it is.
         found: f64,
     },
-    /// The decimator cannot state what was asked for.
-    #[error("the {method} decimator states {expected}, not a {found} error")]
-    BoundOfMethod {
-        /// The decimator.
-        method: &'static str,
-        /// What it can state.
-        expected: &'static str,
-        /// What was asked for.
-        found: &'static str,
-    },
-    /// Vertices were to move under something else than the proof that follows them.
-    #[error("vertices move only under the certified bound of the jade decimator")]
-    PlacementOfBound,
     /// The observer asked to stop.
     #[error("interrupted")]
     Interrupted,

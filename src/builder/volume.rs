@@ -1,0 +1,129 @@
+//! From a tetrahedral mesh to the history of its fusion.
+
+use super::{BuildError, Observer, Phase, Progress, VolumeOptions};
+use crate::decimate::fusion::{self, FusionReport};
+use crate::decimate::{Decimated, Input};
+use crate::history::History;
+use crate::mesh::{TetrahedronRepairReport, check_counts, repair_tetrahedra};
+use crate::store::Vertices;
+use nephrite_formats::{MeshError, TetrahedronMesh};
+use std::ops::ControlFlow;
+
+/// What a build of a volume leaves: the history of a fusion, and how many fusions there were.
+///
+/// Only [`build_volume`] and [`build_volume_with`] make one, so what it [writes](Self::write) of its method is true.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VolumeBuild {
+    pub(super) options: VolumeOptions,
+    pub(super) n_vertices_in: usize,
+    pub(super) n_tetrahedra_in: usize,
+    mesh: TetrahedronMesh,
+    history: History<4>,
+    pub(super) repairs: TetrahedronRepairReport,
+    fusions: FusionReport,
+}
+
+impl VolumeBuild {
+    /// What the history's indices refer to: the vertices of the input after repair, and behind them all fusion points.
+    pub fn vertices(&self) -> Vertices<'_> {
+        (&self.mesh).into()
+    }
+
+    /// Every tetrahedron that ever lived. Its errors bound the distance between the boundary of a step and that of the input
+    /// both ways; its deviations are estimates: of the planar quadric distance, and of every field.
+    pub fn history(&self) -> &History<4> {
+        &self.history
+    }
+
+    /// What the build was asked for.
+    pub fn options(&self) -> &VolumeOptions {
+        &self.options
+    }
+
+    /// Vertices of the input, before repair.
+    pub fn n_vertices_in(&self) -> usize {
+        self.n_vertices_in
+    }
+
+    /// Tetrahedra of the input, before repair.
+    pub fn n_tetrahedra_in(&self) -> usize {
+        self.n_tetrahedra_in
+    }
+
+    /// What the repair did.
+    pub fn repairs(&self) -> &TetrahedronRepairReport {
+        &self.repairs
+    }
+
+    /// How many fusions there were.
+    pub fn fusions(&self) -> &FusionReport {
+        &self.fusions
+    }
+}
+
+/// Repairs `mesh` and fuses its tetrahedra as the options say. The result does not depend on the number of threads.
+///
+/// # Errors
+///
+/// [`BuildError`] for a mesh without tetrahedra or that contradicts itself, and for options out of their range.
+///
+/// ```
+/// use nephrite::{VolumeOptions, build_volume, generate};
+/// let build = build_volume(&generate::box_volume([4; 3]), &VolumeOptions::default())?;
+/// assert!(build.fusions().n_fusions > 0);
+/// # Ok::<(), nephrite::BuildError>(())
+/// ```
+pub fn build_volume(mesh: &TetrahedronMesh, options: &VolumeOptions) -> Result<VolumeBuild, BuildError> {
+    build_volume_with(mesh, options, &|_| ControlFlow::Continue(()))
+}
+
+/// As [`build_volume`], with an observer that is told of progress and may stop the build.
+///
+/// # Errors
+///
+/// As [`build_volume`], and [`BuildError::Interrupted`] when `observer` breaks.
+pub fn build_volume_with(
+    mesh: &TetrahedronMesh,
+    options: &VolumeOptions,
+    observer: Observer<'_>,
+) -> Result<VolumeBuild, BuildError> {
+    options.check()?;
+    check_counts(mesh.positions.len(), mesh.tetrahedra.len())?;
+    mesh.check().map_err(|error| inconsistent(&error))?;
+    let (n_vertices_in, n_tetrahedra_in) = (mesh.positions.len(), mesh.tetrahedra.len());
+    let tell = |phase, n_triangles, error| {
+        let max_error = options.max_error;
+        let progress = Progress { phase, n_triangles, n_triangles_in: n_tetrahedra_in, error, max_error };
+        observer(&progress)
+    };
+    if tell(Phase::Repair, n_tetrahedra_in, 0.0).is_break() {
+        return Err(BuildError::Interrupted);
+    }
+    let (mesh, repairs) = repair_tetrahedra(mesh);
+    if mesh.tetrahedra.is_empty() {
+        return Err(BuildError::NoTetrahedra { n_tetrahedra: n_tetrahedra_in });
+    }
+    let cos_feature_angle = options.feature_angle_degrees.to_radians().cos();
+    let watch = |n_alive, error| tell(Phase::Decimate, n_alive, error);
+    let input = Input { mesh, max_error: options.max_error, cos_feature_angle };
+    let Decimated { mesh, history, report } = fusion::run(input, &options.fusion, &watch)?;
+    Ok(VolumeBuild {
+        options: *options,
+        n_vertices_in,
+        n_tetrahedra_in,
+        mesh,
+        history,
+        repairs,
+        fusions: report,
+    })
+}
+
+fn inconsistent(error: &MeshError) -> BuildError {
+    match *error {
+        MeshError::NonFinite { place: nephrite_formats::Place::Item(_, vertex), .. } => {
+            BuildError::NotFinite { vertex: usize::try_from(vertex).unwrap_or(usize::MAX) }
+        }
+        MeshError::InconsistentMesh { found, expected, .. } => BuildError::Inconsistent { found, expected },
+        _ => BuildError::Inconsistent { found: 0, expected: 0 },
+    }
+}
