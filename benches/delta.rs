@@ -22,7 +22,7 @@ fn delta(criterion: &mut Criterion) {
             group.throughput(Throughput::Elements(n_changed));
             let of = format!(
                 "{} triangles, {distance} levels on, {n_changed} changed in {n_runs} runs",
-                delta.from().n_simplices()
+                delta.before().n_simplices()
             );
             group.bench_function(BenchmarkId::new("runs", &of), |bencher| {
                 bencher.iter(|| {
@@ -37,7 +37,7 @@ fn delta(criterion: &mut Criterion) {
             group.sample_size(10);
             group.bench_function(BenchmarkId::new("naive: two sets", &of), |bencher| {
                 bencher.iter(|| {
-                    let [before, after] = [delta.from(), delta.to()].map(triangles);
+                    let [before, after] = [delta.before(), delta.after()].map(triangles);
                     before.symmetric_difference(&after).count()
                 });
             });

@@ -67,11 +67,11 @@ fn follow(lod: &Lod, levels: impl Iterator<Item = u32>) {
     let mut before = 0;
     for level in levels {
         let delta = lod.delta(before, level);
-        let n_before = delta.from().n_simplices();
+        let n_before = delta.before().n_simplices();
         let n_leaving = followed.change(delta.leaving(), false);
         let n_entering = followed.change(delta.entering(), true);
         assert_eq!(followed.sum, direct[level as usize], "from {before} to {level}");
-        assert_eq!(n_before - n_leaving + n_entering, delta.to().n_simplices());
+        assert_eq!(n_before - n_leaving + n_entering, delta.after().n_simplices());
         before = level;
     }
 }
@@ -128,5 +128,5 @@ fn neighbours_differ_by_a_run_per_height_at_most() {
         }
         assert_eq!(lod.delta(level, level).leaving().chain(lod.delta(level, level).entering()).count(), 0);
     }
-    assert_eq!(lod.delta(u32::MAX, u32::MAX).to().level(), lod.n_levels() - 1);
+    assert_eq!(lod.delta(u32::MAX, u32::MAX).after().level(), lod.n_levels() - 1);
 }

@@ -27,8 +27,8 @@ fn check(lod: &Lod, fine: u32, coarse: u32) -> Vec<f64> {
     let landings = lod.geomorph(fine, coarse).unwrap();
     let cut = lod.at_level(coarse);
     let alive: HashSet<[u32; 3]> = cut.to_mesh().unwrap().triangles.into_iter().collect();
-    let first = cut.vertex_count();
-    assert_eq!(landings.len(), lod.at_level(fine).vertex_count() - first);
+    let first = cut.prefix_len();
+    assert_eq!(landings.len(), lod.at_level(fine).prefix_len() - first);
     let distance = |(vertex, landing): (usize, &Option<Landing>)| {
         let landing = landing.unwrap();
         assert!(alive.contains(&landing.triangle));
@@ -64,7 +64,7 @@ fn on_a_curved_surface_landings_are_about_as_near_as_can_be() {
         let corners: Vec<_> =
             mesh.triangles.iter().map(|t| t.map(|v| widen(mesh.positions[v as usize]))).collect();
         let (mut sum, mut nearest_sum) = (0.0, 0.0);
-        for (vertex, &distance) in (cut.vertex_count()..).zip(&distances) {
+        for (vertex, &distance) in (cut.prefix_len()..).zip(&distances) {
             let position = widen(lod.vertices()[vertex]);
             let nearest = corners.iter().map(|corners| point_triangle_distance_sq(position, corners));
             let nearest = nearest.fold(f64::INFINITY, f64::min).sqrt();

@@ -115,7 +115,7 @@ fn queries_give_the_level_that_a_scan_of_the_curve_gives() {
     for (level, point) in (0..).zip(&curve) {
         let cut = lod.at_level(level);
         assert_eq!((cut.error(), cut.n_simplices()), (point.error, point.simplices as usize));
-        assert_eq!(cut.vertex_count(), point.vertices as usize);
+        assert_eq!(cut.prefix_len(), point.vertices as usize);
         assert!(cut.n_runs() <= (usize::BITS - (curve.len() - 1).leading_zeros()) as usize + 1);
     }
     assert_eq!(lod.at_level(u32::MAX).level(), lod.n_levels() - 1);
@@ -151,7 +151,7 @@ fn tetrahedra_are_stored_like_triangles() {
         let cut = lod.at_level(level);
         let mut indices = vec![0; cut.n_indices()];
         cut.extract_into(&mut indices).unwrap();
-        assert!(indices.iter().all(|&index| (index as usize) < cut.vertex_count()));
+        assert!(indices.iter().all(|&index| (index as usize) < cut.prefix_len()));
         let n_alive = (0..300).filter(|&id| history.birth[id] <= step && step < history.death[id]).count();
         assert_eq!(cut.n_simplices(), n_alive);
         assert_eq!(cut.to_mesh(), Err(QueryError::NotTriangles { found: 4 }));

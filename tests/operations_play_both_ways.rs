@@ -68,7 +68,7 @@ fn any_count_is_met_with_one_operation_of_slack() {
         let mut mesh = ProgressiveMesh::from_bytes(&build.operations().unwrap().bytes).unwrap();
         let n_in = build.history().n_alive(0);
         for n in (0..=n_in).rev().chain([n_in / 2, 3, n_in]) {
-            let found = mesh.to_triangles(n);
+            let found = mesh.seek(n);
             assert!(found <= n && found + 2 > n, "{found} for {n}");
             let corners = mesh.triangles().as_flattened();
             assert!(corners.iter().all(|&v| (v as usize) < mesh.positions().len()));

@@ -118,7 +118,7 @@ fn ask(lod: &Lod, script: &mut Script<'_>) {
                 for run in delta.leaving().chain(delta.entering()) {
                     assert!(run.range().end <= n_slots);
                 }
-                delta.to()
+                delta.after()
             }
             _ => {
                 let (fine, coarse) = (script.u8().into(), script.u8().into());

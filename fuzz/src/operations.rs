@@ -135,7 +135,7 @@ fn move_once(mesh: &mut ProgressiveMesh, script: &mut Script<'_>) {
         1 => {
             mesh.coarsen(n);
         }
-        _ => assert!(mesh.to_triangles(n) <= n),
+        _ => assert!(mesh.seek(n) <= n),
     }
     check(mesh);
 }

@@ -19,7 +19,7 @@ const MAX_FREQUENCY: u32 = 1000;
 pub fn sphere(frequency: u32) -> TriangleMesh {
     let frequency = frequency.clamp(1, MAX_FREQUENCY);
     let corners = icosahedron();
-    let mut surface = Surface { corners, ids: HashMap::new(), positions: Vec::new() };
+    let mut surface = Subdivision { corners, ids: HashMap::new(), positions: Vec::new() };
     let mut triangles = Vec::with_capacity(20 * frequency as usize * frequency as usize);
     for face in icosahedron_faces(&corners) {
         for row in 0..frequency {
@@ -54,13 +54,13 @@ pub fn sphere_frequency(n_triangles: u32) -> u32 {
 type Share = (u32, u32);
 
 /// Vertices so far, shared by all faces.
-struct Surface {
+struct Subdivision {
     corners: [[f64; 3]; 12],
     ids: HashMap<[Share; 3], u32>,
     positions: Vec<[f64; 3]>,
 }
 
-impl Surface {
+impl Subdivision {
     /// The vertex in the direction of the weighted sum of three corners.
     ///
     /// Corners of weight 0 are left out and the others sorted, so that the faces at an edge share

@@ -36,11 +36,11 @@ pub fn plane_normals(average: Vector) -> impl Iterator<Item = Vector> {
 
 /// A plane through the origin with two axes, right-handed with its normal.
 #[derive(Clone, Copy, Debug)]
-pub struct Plane {
+pub struct ProjectionPlane {
     axes: [Vector; 2],
 }
 
-impl Plane {
+impl ProjectionPlane {
     /// The plane with the given unit normal.
     pub fn new(normal: Vector) -> Self {
         let [x, y, z] = normal.map(f64::abs);
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn projection_keeps_the_turn_seen_from_the_normal() {
         for normal in plane_normals([0.3, -0.5, 0.9]) {
-            let plane = Plane::new(normal);
+            let plane = ProjectionPlane::new(normal);
             let [u, v] = plane.axes;
             assert!((dot(cross(u, v), normal) - 1.0).abs() < 1e-12);
         }

@@ -10,12 +10,12 @@ use crate::flat::to_index;
 /// Lists of triangle slots, one per vertex.
 #[derive(Clone, Debug, Default)]
 pub struct Stars {
-    lists: Vec<List>,
+    lists: Vec<SlotRange>,
     pool: Vec<u32>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct List {
+struct SlotRange {
     start: u32,
     len: u32,
     capacity: u32,
@@ -41,7 +41,7 @@ impl Stars {
     ///
     /// A counting sort like that of `Groups`, but with room left in each list.
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
-        let mut lists = vec![List::default(); n_vertices];
+        let mut lists = vec![SlotRange::default(); n_vertices];
         for &v in triangles.as_flattened() {
             lists[v as usize].capacity += 1;
         }
@@ -98,7 +98,7 @@ impl Stars {
 
     /// Adds a vertex with an empty star and gives its index.
     pub fn add_vertex(&mut self) -> u32 {
-        self.lists.push(List::default());
+        self.lists.push(SlotRange::default());
         to_index(self.lists.len() - 1)
     }
 
@@ -111,7 +111,7 @@ impl Stars {
         for list in &mut self.lists {
             let start = to_index(pool.len());
             pool.extend_from_slice(&self.pool[list.start as usize..][..list.len as usize]);
-            *list = List { start, len: list.len, capacity: list.len };
+            *list = SlotRange { start, len: list.len, capacity: list.len };
         }
         self.pool = pool;
     }

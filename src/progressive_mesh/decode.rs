@@ -26,12 +26,12 @@ const MAX_STRIDE_BYTES: u32 = 1 << 14;
 
 /// The beginning of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Header {
+pub(super) struct StreamHeader {
     pub(super) stride_bytes: u32,
     pub(super) n_operations: u64,
 }
 
-impl Header {
+impl StreamHeader {
     pub(super) const BYTES: usize = 16;
 
     pub(super) fn to_bytes(self) -> [u8; Self::BYTES] {
@@ -73,7 +73,7 @@ pub(super) const MOVES: &str = "triangles move from star to star without end";
 /// Everything that has been read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Decoder {
-    pub(super) header: Option<Header>,
+    pub(super) header: Option<StreamHeader>,
     pub(super) growth: Growth,
     pub(super) positions: Vec<[f32; 3]>,
     pub(super) attributes: Vec<u8>,
@@ -87,8 +87,8 @@ impl Decoder {
     pub(super) fn read(&mut self, bytes: &[u8]) -> Result<usize, StreamError> {
         let Some(header) = self.header else {
             let Some(bytes) = bytes.first_chunk() else { return Ok(0) };
-            self.header = Some(Header::from_bytes(bytes)?);
-            return Ok(Header::BYTES);
+            self.header = Some(StreamHeader::from_bytes(bytes)?);
+            return Ok(StreamHeader::BYTES);
         };
         if bytes.len() < BLOCK_HEADER_BYTES {
             return Ok(0);

@@ -1,8 +1,10 @@
 //! Writing a stream.
 
 use super::StreamError;
-use super::decode::{ARRANGEMENTS, BLOCK_HEADER_BYTES, ESCAPE, FIRST_BLOCK, Header, LARGEST_BLOCK, MOVES};
-use super::growth::{Growth, Kind};
+use super::decode::{
+    ARRANGEMENTS, BLOCK_HEADER_BYTES, ESCAPE, FIRST_BLOCK, LARGEST_BLOCK, MOVES, StreamHeader,
+};
+use super::growth::{Growth, GrowthKind};
 use super::plan::{Planned, plan};
 use super::planes::{Planes, difference, plane};
 use crate::Build;
@@ -79,8 +81,8 @@ impl<'a> Writer<'a> {
             vertices: Vec::new(),
             planes: Planes::new(stride_bytes),
             link: Vec::new(),
-            bytes: vec![0; Header::BYTES],
-            plain_bytes: Header::BYTES,
+            bytes: vec![0; StreamHeader::BYTES],
+            plain_bytes: StreamHeader::BYTES,
         }
     }
 
@@ -109,7 +111,7 @@ impl<'a> Writer<'a> {
     }
 
     fn put_merge(&mut self, vertex: u32, beside: u32) {
-        self.planes.put(plane::KINDS, kind_byte(Kind::VertexMerge, 0));
+        self.planes.put(plane::KINDS, kind_byte(GrowthKind::VertexMerge, 0));
         let [vertex, beside] = [vertex, beside].map(|v| self.number[v as usize]);
         self.planes.put_u32(plane::VERTICES, beside);
         self.planes.put_u32(plane::VERTICES, vertex);
@@ -117,7 +119,7 @@ impl<'a> Writer<'a> {
     }
 
     fn put_triangle(&mut self, slot: u32, corners: [u32; 3]) {
-        self.planes.put(plane::KINDS, kind_byte(Kind::Triangle, 0));
+        self.planes.put(plane::KINDS, kind_byte(GrowthKind::Triangle, 0));
         let n_before = self.vertices.len();
         for v in corners {
             self.put_vertex_or_new(v, self.vertices.len().saturating_sub(1));
@@ -131,7 +133,7 @@ impl<'a> Writer<'a> {
         let n_before = self.vertices.len();
         let origin = self.number[beside as usize];
         let n_born = u8::try_from(born.len()).unwrap_or(u8::MAX);
-        self.planes.put(plane::KINDS, kind_byte(Kind::EdgeSplit, n_born));
+        self.planes.put(plane::KINDS, kind_byte(GrowthKind::EdgeSplit, n_born));
         self.planes.put_u32(plane::VERTICES, count(n_before) - 1 - origin);
         let mut moved: Vec<u32> = moved.iter().map(|&slot| self.triangle[slot as usize]).collect();
         moved.sort_unstable();
@@ -218,11 +220,11 @@ impl<'a> Writer<'a> {
     }
 
     fn finish(mut self) -> Encoded {
-        let header = Header {
+        let header = StreamHeader {
             stride_bytes: count(self.stride_bytes),
             n_operations: self.growth.operations.len() as u64,
         };
-        self.bytes[..Header::BYTES].copy_from_slice(&header.to_bytes());
+        self.bytes[..StreamHeader::BYTES].copy_from_slice(&header.to_bytes());
         Encoded {
             bytes: self.bytes,
             plain_bytes: self.plain_bytes,
@@ -232,12 +234,12 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Kind in the two lowest bits, number of new triangles above.
-fn kind_byte(kind: Kind, n_born: u8) -> u8 {
+/// GrowthKind in the two lowest bits, number of new triangles above.
+fn kind_byte(kind: GrowthKind, n_born: u8) -> u8 {
     let kind = match kind {
-        Kind::EdgeSplit => 0,
-        Kind::VertexMerge => 1,
-        Kind::Triangle => 2,
+        GrowthKind::EdgeSplit => 0,
+        GrowthKind::VertexMerge => 1,
+        GrowthKind::Triangle => 2,
     };
     kind | n_born << 2
 }

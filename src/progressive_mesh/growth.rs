@@ -16,7 +16,7 @@ const MAX_LINK_LEN: usize = u8::MAX as usize;
 
 /// What an operation does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum GrowthKind {
     /// A new vertex takes triangles from an old one, and new triangles appear.
     #[default]
     EdgeSplit,
@@ -28,8 +28,8 @@ pub(super) enum Kind {
 
 /// One operation, in the order of growth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Operation {
-    pub(super) kind: Kind,
+pub(super) struct GrowthStep {
+    pub(super) kind: GrowthKind,
     /// The vertex that appears or disappears.
     pub(super) vertex: u32,
     /// The vertex beside which that happens; the vertex itself for a triangle.
@@ -42,7 +42,7 @@ pub(super) struct Operation {
     pub(super) n_vertices: u32,
 }
 
-impl Operation {
+impl GrowthStep {
     /// Range in [`Growth::moved`] of the triangles that change a corner.
     pub(super) fn moved_range(&self) -> Range<usize> {
         self.moved_start as usize..(self.moved_start + self.n_moved) as usize
@@ -52,7 +52,7 @@ impl Operation {
 /// All operations so far, resolved, and the mesh that they lead to.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Growth {
-    pub(super) operations: Vec<Operation>,
+    pub(super) operations: Vec<GrowthStep>,
     /// Triangles that change a corner, operation by operation.
     pub(super) moved: Vec<u32>,
     /// Every triangle with the corners that it appears with.
@@ -105,7 +105,7 @@ impl Growth {
         self.give(beside, vertex, moved);
         self.bear(born);
         self.push(
-            Operation { kind: Kind::EdgeSplit, vertex, beside, n_vertices, ..Operation::default() },
+            GrowthStep { kind: GrowthKind::EdgeSplit, vertex, beside, n_vertices, ..GrowthStep::default() },
             moved,
             born,
         );
@@ -115,7 +115,11 @@ impl Growth {
     pub(super) fn vertex_merge(&mut self, vertex: u32, beside: u32) {
         let moved = self.star(vertex).to_vec();
         self.give(vertex, beside, &moved);
-        self.push(Operation { kind: Kind::VertexMerge, vertex, beside, ..Operation::default() }, &moved, &[]);
+        self.push(
+            GrowthStep { kind: GrowthKind::VertexMerge, vertex, beside, ..GrowthStep::default() },
+            &moved,
+            &[],
+        );
     }
 
     /// One triangle appears, with `n_vertices` new vertices.
@@ -123,8 +127,13 @@ impl Growth {
         self.grow(n_vertices);
         self.bear(&[born]);
         let [vertex, ..] = born;
-        let operation =
-            Operation { kind: Kind::Triangle, vertex, beside: vertex, n_vertices, ..Operation::default() };
+        let operation = GrowthStep {
+            kind: GrowthKind::Triangle,
+            vertex,
+            beside: vertex,
+            n_vertices,
+            ..GrowthStep::default()
+        };
         self.push(operation, &[], &[born]);
     }
 
@@ -153,13 +162,13 @@ impl Growth {
         }
     }
 
-    fn push(&mut self, operation: Operation, moved: &[u32], born: &[[u32; 3]]) {
+    fn push(&mut self, operation: GrowthStep, moved: &[u32], born: &[[u32; 3]]) {
         let moved_start = count(self.moved.len());
         self.moved.extend_from_slice(moved);
         self.born.extend_from_slice(born);
         self.n_triangles.push(count(self.triangles.len()));
         let (n_moved, n_triangles) = (count(moved.len()), count(born.len()));
-        self.operations.push(Operation { moved_start, n_moved, n_triangles, ..operation });
+        self.operations.push(GrowthStep { moved_start, n_moved, n_triangles, ..operation });
     }
 }
 

@@ -22,11 +22,11 @@ pub use encode::Encoded;
 pub(crate) use encode::encode;
 pub use error::StreamError;
 
-use decode::{Decoder, Header};
-use growth::{Growth, Kind, Operation};
+use decode::{Decoder, StreamHeader};
+use growth::{Growth, GrowthKind, GrowthStep};
 
 /// Length of the header of a stream, before its first block.
-pub const STREAM_HEADER_BYTES: usize = Header::BYTES;
+pub const STREAM_HEADER_BYTES: usize = StreamHeader::BYTES;
 
 /// A mesh that grows and shrinks by single operations.
 ///
@@ -44,7 +44,7 @@ pub const STREAM_HEADER_BYTES: usize = Header::BYTES;
 /// assert_eq!(mesh.triangles().len(), 0);
 /// mesh.refine(usize::MAX);
 /// assert_eq!(mesh.triangles().len(), 256);
-/// mesh.to_triangles(100);
+/// mesh.seek(100);
 /// assert!((99..=100).contains(&mesh.triangles().len()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -123,10 +123,10 @@ impl ProgressiveMesh {
         let end = self.position.saturating_add(n).min(self.n_operations());
         let Growth { operations, moved, born, .. } = &self.decoder.growth;
         for operation in &operations[self.position..end] {
-            let Operation { kind, vertex, beside, .. } = *operation;
+            let GrowthStep { kind, vertex, beside, .. } = *operation;
             let (from, to) = match kind {
-                Kind::EdgeSplit | Kind::Triangle => (beside, vertex),
-                Kind::VertexMerge => (vertex, beside),
+                GrowthKind::EdgeSplit | GrowthKind::Triangle => (beside, vertex),
+                GrowthKind::VertexMerge => (vertex, beside),
             };
             rename(&mut self.triangles, &moved[operation.moved_range()], from, to);
             let start = self.triangles.len();
@@ -141,10 +141,10 @@ impl ProgressiveMesh {
         let start = self.position.saturating_sub(n);
         let Growth { operations, moved, .. } = &self.decoder.growth;
         for operation in operations[start..self.position].iter().rev() {
-            let Operation { kind, vertex, beside, .. } = *operation;
+            let GrowthStep { kind, vertex, beside, .. } = *operation;
             let (from, to) = match kind {
-                Kind::EdgeSplit | Kind::Triangle => (vertex, beside),
-                Kind::VertexMerge => (beside, vertex),
+                GrowthKind::EdgeSplit | GrowthKind::Triangle => (vertex, beside),
+                GrowthKind::VertexMerge => (beside, vertex),
             };
             self.triangles.truncate(self.triangles.len() - operation.n_triangles as usize);
             rename(&mut self.triangles, &moved[operation.moved_range()], from, to);
@@ -155,7 +155,7 @@ impl ProgressiveMesh {
 
     /// Plays to the largest mesh of at most `n` triangles that the operations read so far give;
     /// returns its number of triangles.
-    pub fn to_triangles(&mut self, n: usize) -> usize {
+    pub fn seek(&mut self, n: usize) -> usize {
         let position = self.growth().n_triangles.partition_point(|&count| count as usize <= n);
         if position >= self.position {
             self.refine(position - self.position);

@@ -69,7 +69,7 @@ impl<'a> Cut<'a> {
     /// Length of the prefix of [`Lod::vertices`] that holds the vertices of the level. Every index
     /// of the level is below it. In a file with [births](Lod::vertex_births) the prefix also holds
     /// vertices that only coarser levels use.
-    pub fn vertex_count(&self) -> usize {
+    pub fn prefix_len(&self) -> usize {
         let stated = self.lod.file().vertex_counts()[self.level as usize] as usize;
         stated.min(self.lod.vertices().len())
     }
@@ -78,13 +78,13 @@ impl<'a> Cut<'a> {
     /// births, otherwise one pass over the prefix.
     pub fn n_vertices(&self) -> usize {
         let births = self.lod.vertex_births();
-        let prefix = births.get(..self.vertex_count()).unwrap_or(&[]);
-        self.vertex_count() - prefix.iter().filter(|&&birth| birth > self.level).count()
+        let prefix = births.get(..self.prefix_len()).unwrap_or(&[]);
+        self.prefix_len() - prefix.iter().filter(|&&birth| birth > self.level).count()
     }
 
     /// Positions of the prefix that holds the level's vertices.
     pub fn vertices(&self) -> &'a [[f32; 3]] {
-        &self.lod.vertices()[..self.vertex_count()]
+        &self.lod.vertices()[..self.prefix_len()]
     }
 
     /// The level as a mesh of its own, with attributes and without vertices that no triangle uses.
@@ -116,9 +116,9 @@ impl<'a> Cut<'a> {
     }
 
     pub(super) fn check_indices(&self, indices: &[u32]) -> Result<(), QueryError> {
-        let vertex_count = self.vertex_count();
-        match indices.iter().find(|&&index| index as usize >= vertex_count) {
-            Some(&found) => Err(QueryError::VertexIndex { found, vertex_count }),
+        let prefix_len = self.prefix_len();
+        match indices.iter().find(|&&index| index as usize >= prefix_len) {
+            Some(&found) => Err(QueryError::VertexIndex { found, vertex_count: prefix_len }),
             None => Ok(()),
         }
     }

@@ -27,19 +27,19 @@ use crate::tree::Difference;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Delta<'a> {
-    from: Cut<'a>,
-    to: Cut<'a>,
+    before: Cut<'a>,
+    after: Cut<'a>,
 }
 
 impl<'a> Delta<'a> {
     /// The level before.
-    pub fn from(&self) -> Cut<'a> {
-        self.from
+    pub fn before(&self) -> Cut<'a> {
+        self.before
     }
 
     /// The level after.
-    pub fn to(&self) -> Cut<'a> {
-        self.to
+    pub fn after(&self) -> Cut<'a> {
+        self.after
     }
 
     /// Triangles of the level before that the level after does not have.
@@ -48,13 +48,13 @@ impl<'a> Delta<'a> {
     /// that does not depend on the number of triangles. Between other levels, at most linear in the
     /// triangles that are born or die between the two.
     pub fn leaving(&self) -> Difference<'a> {
-        only_at(self.from, self.to)
+        only_at(self.before, self.after)
     }
 
     /// Triangles of the level after that the level before does not have. Cost: as
     /// [`leaving`](Self::leaving).
     pub fn entering(&self) -> Difference<'a> {
-        only_at(self.to, self.from)
+        only_at(self.after, self.before)
     }
 }
 
@@ -67,6 +67,6 @@ impl Lod {
     /// The change from level `from` to level `to`, in either direction. A level that does not exist
     /// is the coarsest one. Allocates nothing.
     pub fn delta(&self, from: u32, to: u32) -> Delta<'_> {
-        Delta { from: self.at_level(from), to: self.at_level(to) }
+        Delta { before: self.at_level(from), after: self.at_level(to) }
     }
 }

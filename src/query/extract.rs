@@ -12,7 +12,7 @@ impl Cut<'_> {
     /// number, [`n_indices`](Self::n_indices). Cost: one `memcpy` per run.
     ///
     /// Indices are copied as the file has them. In a file that [`Lod::verify`](super::Lod::verify)
-    /// accepts, each is below [`vertex_count`](Self::vertex_count); [`to_mesh`](Self::to_mesh)
+    /// accepts, each is below [`prefix_len`](Self::prefix_len); [`to_mesh`](Self::to_mesh)
     /// checks them.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl Cut<'_> {
         let (triangles, _) = indices[..n_indices].as_chunks_mut::<3>();
         self.check_indices(triangles.as_flattened())?;
         // Valid indices have no order only if they exceed 2^32 corners; then any order will do.
-        if let Some(order) = FanOrder::new(self.vertex_count()).order(triangles) {
+        if let Some(order) = FanOrder::new(self.prefix_len()).order(triangles) {
             let in_runs = triangles.to_vec();
             for (triangle, place) in triangles.iter_mut().zip(order) {
                 *triangle = in_runs[place as usize];
@@ -70,9 +70,9 @@ impl Cut<'_> {
         if self.lod().n_corners() != 3 {
             return 0.0;
         }
-        let vertex_count = self.vertex_count();
+        let prefix_len = self.prefix_len();
         let triangles = self.runs().flat_map(|run| self.lod().indices()[run.index_range(3)].as_chunks().0);
-        let valid = triangles.filter(|triangle| triangle.iter().all(|&v| (v as usize) < vertex_count));
+        let valid = triangles.filter(|triangle| triangle.iter().all(|&v| (v as usize) < prefix_len));
         vertex_cache::miss_ratio(valid.copied(), cache_len)
     }
 

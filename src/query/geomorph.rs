@@ -21,8 +21,8 @@ pub struct Landing {
 
 impl Lod {
     /// Where each vertex that level `fine` has and level `coarse` does not comes to lie on level
-    /// `coarse`. The vertices are those from `at_level(coarse).vertex_count()` up to
-    /// `at_level(fine).vertex_count()`, in their order. `None` for vertices that are born between
+    /// `coarse`. The vertices are those from `at_level(coarse).prefix_len()` up to
+    /// `at_level(fine).prefix_len()`, in their order. `None` for vertices that are born between
     /// the two levels, and if triangles vanished without replacement. The list is empty if `coarse`
     /// is not coarser than `fine`; a level that does not exist is the coarsest one.
     ///
@@ -45,8 +45,8 @@ impl Lod {
         let (fine, coarse) = (self.at_level(fine), self.at_level(coarse));
         let mut flights = Flights {
             lod: self,
-            first_vertex: coarse.vertex_count(),
-            landings: vec![None; fine.vertex_count().saturating_sub(coarse.vertex_count())],
+            first_vertex: coarse.prefix_len(),
+            landings: vec![None; fine.prefix_len().saturating_sub(coarse.prefix_len())],
             landed_on: HashMap::new(),
         };
         for level in fine.level()..coarse.level() {
@@ -74,7 +74,7 @@ struct Flights<'a> {
 impl Flights<'_> {
     /// Moves the vertices on to the level after `level`.
     fn pass(&mut self, level: u32) -> Result<(), QueryError> {
-        let [before, after] = [level, level + 1].map(|level| self.lod.at_level(level).vertex_count());
+        let [before, after] = [level, level + 1].map(|level| self.lod.at_level(level).prefix_len());
         let patches = Patches::between(self.lod, level);
         let (leaving, entering) = patches.triangles.split_at(patches.n_leaving);
         check_indices(leaving, before)?;

@@ -6,7 +6,7 @@ use crate::progressive_mesh::ProgressiveMesh;
 use rayon::prelude::*;
 
 /// Corners of a triangle by the bits of their positions, the least first.
-type Shape = [[u32; 3]; 3];
+type CornerBits = [[u32; 3]; 3];
 
 impl Opened {
     /// Reads the whole stream and plays it to its end: then it has the triangles of level 0, by the positions of their corners and
@@ -39,16 +39,16 @@ impl Opened {
 }
 
 /// The triangles in an order of their own. Zeros have no sign: repair makes one point of both.
-fn shapes(positions: &[[f32; 3]], triangles: impl Iterator<Item = [u32; 3]>) -> Vec<Shape> {
+fn shapes(positions: &[[f32; 3]], triangles: impl Iterator<Item = [u32; 3]>) -> Vec<CornerBits> {
     let corner =
         |v: u32| positions.get(v as usize).map_or([u32::MAX; 3], |at| at.map(|x| (x + 0.0).to_bits()));
-    let mut shapes: Vec<Shape> = triangles.map(|triangle| canonical(triangle.map(corner))).collect();
+    let mut shapes: Vec<CornerBits> = triangles.map(|triangle| canonical(triangle.map(corner))).collect();
     shapes.par_sort_unstable();
     shapes
 }
 
 /// How many entries two sorted lists have in common.
-fn n_common(a: &[Shape], b: &[Shape]) -> u64 {
+fn n_common(a: &[CornerBits], b: &[CornerBits]) -> u64 {
     let (mut i, mut j, mut n) = (0, 0, 0);
     while i < a.len() && j < b.len() {
         match a[i].cmp(&b[j]) {

@@ -153,10 +153,10 @@ pub fn open_and_use(bytes: &[u8]) -> Outcome {
         let n_indices = cut.extract_into(&mut buffer).unwrap();
         assert!(n_indices == cut.n_indices() && n_indices <= buffer.len());
         assert!(
-            cut.vertices().len() == cut.vertex_count()
+            cut.vertices().len() == cut.prefix_len()
                 && cut.error().to_bits() == lod.errors()[cut.level() as usize].to_bits()
         );
-        assert!(cut.n_vertices() <= cut.vertex_count());
+        assert!(cut.n_vertices() <= cut.prefix_len());
         match cut.to_mesh() {
             Ok(mesh) => {
                 assert!(mesh.triangles.as_flattened().iter().all(|&v| (v as usize) < mesh.positions.len()));

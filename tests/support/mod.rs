@@ -58,7 +58,7 @@ pub fn assert_levels_equal_scans(lod: &Lod, mesh: &TriangleMesh, history: &Histo
         let is_seen = |v: u32, death: u32| levels.lifetime(history.vertex_birth(v), death).is_some();
         let n_prefix = vertices().filter(|&(v, &death)| is_seen(v, death)).count();
         let n_alive = vertices().filter(|&(v, _)| history.vertex_birth(v) <= step).count();
-        assert_eq!((cut.vertex_count(), cut.n_vertices()), (n_prefix, n_alive), "level {level}");
+        assert_eq!((cut.prefix_len(), cut.n_vertices()), (n_prefix, n_alive), "level {level}");
         assert_eq!(lod.curve().nth(level as usize).unwrap().vertices as usize, n_alive, "level {level}");
     }
 }

@@ -74,9 +74,9 @@ pub fn carry_out(state: &mut State, plans: &[Box<Plan>]) -> Result<(), TooMany> 
 #[derive(Clone, Debug, Default)]
 pub struct Claims {
     /// A bit for each source edge.
-    moved: Marks,
+    moved: NumberSet,
     /// A bit for each [`key`] of an edge or a triangle.
-    made: Marks,
+    made: NumberSet,
 }
 
 impl Claims {
@@ -126,12 +126,12 @@ fn key(vertices: &[u32]) -> u32 {
 
 /// A set of numbers, a bit each.
 #[derive(Clone, Debug, Default)]
-struct Marks {
+struct NumberSet {
     bits: Vec<u64>,
     members: Vec<u32>,
 }
 
-impl Marks {
+impl NumberSet {
     #[inline]
     fn has(&self, number: u32) -> bool {
         let (word, bit) = place(number);

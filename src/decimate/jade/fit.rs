@@ -49,10 +49,10 @@ struct HolePart {
     edges: EdgeScores,
 }
 
-/// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to the points
-/// covered, as far as they are asked, and to the edges that cross from one to another. Returns the largest of these distances,
-/// squared, or a lower bound of it above the limit, without a filling; `None` where there is no such filling, the hole is too large or
-/// has no average plane.
+/// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to
+/// the covered points that are sampled, and to the edges that cross from one triangle to another.
+/// Returns the largest of these distances, squared; above the limit a lower bound of it, without a
+/// filling. `None` if there is no such filling, or if the hole is too large or has no average plane.
 pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling) -> Option<f64> {
     let Fitting { surface, certified, hole, class, limit_sq } = fitting;
     let up = hole.average_normal();
@@ -68,10 +68,13 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
     };
     collect_parts(hole, split, parts, filling);
     certified.gather(hole, covered);
+    // Edges come first: their distances cost little, and most holes that have no filling within the
+    // limit fail by what no choice of inner edges can avoid.
     crossings.gather(surface, hole, up, certified, covered);
     let crossing_sq = |edge| crossings.largest_sq(hole, edge);
     let is_inside = |&[i, j]: &[u8; 2]| !hole.is_ring_edge(i.into(), j.into());
     let split_sq = split.filter(is_inside).map_or(0.0, crossing_sq);
+    // Followed up somewhat beyond the limit, so that a later iteration knows what the hole needs.
     let enough_sq = REACH * REACH * limit_sq;
     let worst_sq =
         parts.each_mut().map(|HolePart { corners, edges }| edges.set(corners, enough_sq, crossing_sq));
@@ -80,8 +83,11 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
         return Some(least_sq);
     }
     sampled.gather(surface, hole, up, covered);
+    // A star with a thin triangle may be replaced by one as thin.
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
-    // That a new edge is in the mesh already is rare and takes long to find out: asked of the edges chosen only.
+    // It is rare that a new edge is in the mesh already, and takes long to find out. So only the
+    // edges of the best filling are looked up; one that is taken is forbidden and the next best
+    // filling found. At most as many times as there are inner edges.
     let mut taken: Vec<[u8; 2]> = vec![];
     loop {
         let score = |triangle: [u8; 3], cutoff: f64| {

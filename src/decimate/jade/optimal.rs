@@ -24,8 +24,8 @@ impl Score {
     }
 }
 
-/// Scores of the edges inside a polygon, known where they matter, and what they alone let any triangulation of each part of it have
-/// as its worst.
+/// Scores of the edges inside a polygon, known if they matter, and for each part of the polygon the
+/// least worst edge that any triangulation of it has.
 #[derive(Clone, Debug, Default)]
 pub struct EdgeScores {
     own: [[f64; MAX_CORNERS]; MAX_CORNERS],
@@ -33,9 +33,9 @@ pub struct EdgeScores {
 }
 
 impl EdgeScores {
-    /// Makes these the ones of the polygon `corners`, which are at most [`MAX_CORNERS`], as far as they are needed to tell whether a
-    /// triangulation is better than `enough`. `score` gets the ends of an edge. Returns a lower bound of the worst edge of every
-    /// triangulation, exact up to `enough`.
+    /// Makes these the scores of the polygon `corners`, at most [`MAX_CORNERS`], as far as they are
+    /// needed to tell whether a triangulation is better than `enough`. `score` gets the ends of an
+    /// edge. Returns a lower bound of the worst edge of every triangulation, exact up to `enough`.
     pub fn set(&mut self, corners: &[u8], enough: f64, score: impl Fn([u8; 2]) -> f64) -> f64 {
         let Self { own, least } = self;
         let n = corners.len();
@@ -55,10 +55,10 @@ impl EdgeScores {
 
 /// Triangulates the polygon `corners` with the least worst `score` and appends the triangles to `triangles`.
 ///
-/// `score` gets a triangle and a cutoff, above which any value will do. It gives infinity for a triangle that may not be
-/// used, and is never negative; each edge inside has a score too. Returns the worst score, or a lower bound of it above
-/// `enough`, without triangles; or `None` where every triangulation has a forbidden triangle. Panics never; polygons above
-/// [`MAX_CORNERS`] get `None`.
+/// `score` gets a triangle and a cutoff above which any value will do. It gives infinity for a
+/// triangle that may not be used, and is never negative; each edge inside has a score too. Returns
+/// the worst score, or a lower bound of it above `enough`, without triangles. `None` if every
+/// triangulation has a forbidden triangle, or if the polygon has more than [`MAX_CORNERS`].
 pub fn triangulate_optimally(
     corners: &[u8],
     enough: f64,
@@ -70,12 +70,15 @@ pub fn triangulate_optimally(
     if !(3..=MAX_CORNERS).contains(&n) {
         return None;
     }
+    // Parts of two corners are edges, without a triangle: nothing at all. Longer parts are put
+    // together from shorter ones.
     let mut best = [[NOTHING; MAX_CORNERS]; MAX_CORNERS];
     let mut apex = [[0_usize; MAX_CORNERS]; MAX_CORNERS];
     for span in 2..n {
         for i in 0..n - span {
             let j = i + span;
             best[i][j] = IMPOSSIBLE;
+            // The edges alone may rule a part out before any of its triangles is scored.
             let least = edges.least[i][j];
             if least > enough {
                 best[i][j] = Score { worst: least, sum: least };
@@ -84,9 +87,13 @@ pub fn triangulate_optimally(
             let across = edges.own[i][j];
             for k in i + 1..j {
                 let sides = best[i][k].with(best[k][j]);
+                // A whole is no better than its sides, so the triangle between them need not be
+                // scored: scores are what takes time here.
                 if sides.worst >= best[i][j].worst {
                     continue;
                 }
+                // A lower bound above `enough` is all that is asked for, and the sides are one. It
+                // is kept, so that the parts built on this one are known to be as bad.
                 let is_too_bad = sides.worst > enough;
                 let own = if is_too_bad {
                     0.0

@@ -1,6 +1,6 @@
 //! The input vertices that score fillings of a hole, and over which part of the hole each lies.
 
-use crate::geometry::projection::{Plane, Point2, turn};
+use crate::geometry::projection::{Point2, ProjectionPlane, turn};
 use crate::geometry::vector::{Vector, length_sq, scale};
 use crate::mesh::{Hole, Surface};
 use multiversion::multiversion;
@@ -40,7 +40,7 @@ impl SampledVertices {
     /// [`MAX_CORNERS`] corners. O(ring pairs) for each that is sampled.
     pub fn gather(&mut self, surface: &Surface, hole: &Hole, up: Vector, covered: &[u32]) {
         let size = length_sq(up).sqrt();
-        let (plane, unit) = (Plane::new(scale(up, 1.0 / size)), 1.0 / size.sqrt());
+        let (plane, unit) = (ProjectionPlane::new(scale(up, 1.0 / size)), 1.0 / size.sqrt());
         let flatten = |p: Vector| plane.project(p, hole.apex).map(|x| unit * x);
         self.ring.clear();
         self.ring.extend(hole.points.iter().map(|&p| flatten(p)));

@@ -7,7 +7,7 @@
 use super::classify::Class;
 use super::ears::{EarOrder, cut_ears};
 use super::validity::is_valid;
-use crate::geometry::projection::{Plane, Point2, is_simple, plane_normals, polygon_area};
+use crate::geometry::projection::{Point2, ProjectionPlane, is_simple, plane_normals, polygon_area};
 use crate::mesh::{Filling, Hole, Surface};
 
 /// Buffers of the triangulation, reused from hole to hole.
@@ -59,7 +59,7 @@ fn fill_part(
     }
     let n_before = filling.triangles.len();
     for normal in plane_normals(hole.average_normal()) {
-        if !project_part(hole, &Plane::new(normal), &polygons.part, &mut polygons.flat) {
+        if !project_part(hole, &ProjectionPlane::new(normal), &polygons.part, &mut polygons.flat) {
             continue;
         }
         let flat = &polygons.flat;
@@ -89,7 +89,7 @@ pub(super) fn ring_index(i: usize) -> u8 {
 }
 
 /// Projects the part and tells whether its border is simple; mirrored where it would run clockwise.
-fn project_part(hole: &Hole, plane: &Plane, part: &[u8], flat: &mut Vec<Point2>) -> bool {
+fn project_part(hole: &Hole, plane: &ProjectionPlane, part: &[u8], flat: &mut Vec<Point2>) -> bool {
     flat.clear();
     flat.extend(part.iter().map(|&i| plane.project(hole.points[usize::from(i)], hole.apex)));
     let area = polygon_area(flat);

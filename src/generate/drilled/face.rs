@@ -10,7 +10,7 @@ const OUTERMOST_RADIUS: f64 = 4.5;
 
 /// Vertices of a face and their positions: first those on the borders of squares, then those
 /// inside, square by square.
-pub(super) struct Face {
+pub(super) struct DrilledFace {
     drilling: Drilling,
     /// Position of every vertex.
     pub(super) points: Vec<[f64; 2]>,
@@ -20,7 +20,7 @@ pub(super) struct Face {
     inside: Vec<u32>,
 }
 
-impl Face {
+impl DrilledFace {
     /// The face of a drilling, whose counts are in their ranges, with holes of radius
     /// `hole_radius`.
     pub(super) fn new(drilling: Drilling, hole_radius: f64) -> Self {

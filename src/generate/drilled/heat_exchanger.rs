@@ -1,6 +1,6 @@
 //! Two tube sheets and the tubes between them.
 
-use super::face::Face;
+use super::face::DrilledFace;
 use super::{Drilling, HOLE_RADIUS, THICKNESS, band};
 use crate::generate::mesh_of;
 use nephrite_formats::TriangleMesh;
@@ -20,7 +20,7 @@ const LENGTH: f64 = 120.0;
 pub fn heat_exchanger(columns: u32, rows: u32, segments: u32) -> TriangleMesh {
     let drilling = Drilling::of_every_square(columns, rows, segments).clamped();
     // An outer face shows the bores, an inner one the tubes.
-    let [bores, tubes] = [BORE_RADIUS, HOLE_RADIUS].map(|radius| Face::new(drilling, radius));
+    let [bores, tubes] = [BORE_RADIUS, HOLE_RADIUS].map(|radius| DrilledFace::new(drilling, radius));
     let layers = [(&bores, 0.0), (&tubes, THICKNESS), (&tubes, LENGTH - THICKNESS), (&bores, LENGTH)];
     let positions: Vec<[f64; 3]> = layers
         .iter()

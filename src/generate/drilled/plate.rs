@@ -1,6 +1,6 @@
 //! A plate with holes through it.
 
-use super::face::Face;
+use super::face::DrilledFace;
 use super::{Drilling, HOLE_RADIUS, THICKNESS, band, lattice};
 use crate::generate::mesh_of;
 use nephrite_formats::TriangleMesh;
@@ -19,7 +19,7 @@ pub fn plate(columns: u32, rows: u32, segments: u32) -> TriangleMesh {
 /// handle for every hole.
 pub fn drilled_plate(drilling: &Drilling) -> TriangleMesh {
     let drilling = drilling.clamped();
-    let face = Face::new(drilling, HOLE_RADIUS);
+    let face = DrilledFace::new(drilling, HOLE_RADIUS);
     let n = face.n_vertices();
     let lifted = |v: u32| v + n;
     let at = |height: f64| face.points.iter().map(move |&[x, y]| [x, y, height]);

@@ -1,6 +1,6 @@
 //! A thin shell with holes: one bent face.
 
-use super::face::Face;
+use super::face::DrilledFace;
 use super::{Drilling, HOLE_RADIUS, PITCH};
 use crate::generate::mesh_of;
 use nephrite_formats::TriangleMesh;
@@ -15,7 +15,7 @@ const ARC: f64 = PI / 2.0;
 /// It has one boundary for every hole and one around it, and faces away from the axis.
 pub fn shell(drilling: &Drilling) -> TriangleMesh {
     let drilling = drilling.clamped();
-    let face = Face::new(drilling, HOLE_RADIUS);
+    let face = DrilledFace::new(drilling, HOLE_RADIUS);
     let width = PITCH * f64::from(drilling.columns);
     let radius = width / ARC;
     let bend = |&[x, y]: &[f64; 2]| {
