@@ -1,8 +1,9 @@
-//! The accumulated estimate e_g1 (JADE, section 4): each triangle carries the local errors of all the removals that led
-//! to it.
+//! The accumulated estimate e_g1 (JADE, section 4): each triangle carries the local errors of all
+//! the removals that led to it.
 //!
-//! The local error of a new triangle is the largest distance of sample points on it to the star it replaces. Sampling
-//! falls short of the true distance now and then, and the sum overshoots in general: an estimate, not a bound.
+//! The local error of a new triangle is the largest distance of sample points on it to the star it
+//! replaces. Sampling falls short of the true distance now and then, and the sum overshoots in
+//! general: an estimate, not a bound.
 
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
 use crate::geometry::vector::{Vector, cross, length_sq, scale, sub};
@@ -14,9 +15,10 @@ const MAX_RANDOM_SAMPLES: usize = 8;
 /// One random sample for as many mean input triangles in area.
 const AREAS_PER_SAMPLE: f64 = 128.0;
 
-/// Places samples on a triangle: its barycentre, the points halfway from there to each corner, and one random point in
-/// its interior for every 128 mean input triangles in area, at most eight: the estimate grows with the samples, and with as
-/// many as one for sixteen the bunny keeps an eighth more triangles at 1 %.
+/// Places samples on a triangle: its barycentre, the points halfway from there to each corner, and
+/// one random point in its interior for every 128 mean input triangles in area, at most eight: the
+/// estimate grows with the samples, and with as many as one for sixteen the bunny keeps an eighth
+/// more triangles at 1 %.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     mean_area: f64,
@@ -29,8 +31,9 @@ impl Sampler {
         Self { mean_area: total / surface.n_triangles() as f64 }
     }
 
-    /// Square of the largest distance of a sample on `triangle` to the star of `hole`: e_l1 of the paper. Stops early,
-    /// with a value above `limit_sq`, once one sample is that far away. O(valence) per sample.
+    /// Square of the largest distance of a sample on `triangle` to the star of `hole`: e_l1 of the
+    /// paper. Stops early, with a value above `limit_sq`, once one sample is that far away.
+    /// O(valence) per sample.
     pub fn local_error_sq(&self, triangle: &Triangle, hole: &Hole, limit_sq: f64) -> f64 {
         let mut error_sq = 0.0_f64;
         for weights in self.weights(triangle) {
@@ -43,11 +46,13 @@ impl Sampler {
         error_sq
     }
 
-    /// The accumulated error e_g1 of `triangle`, given that of the star's triangles by index. O(valence) per sample.
+    /// The accumulated error e_g1 of `triangle`, given that of the star's triangles by index.
+    /// O(valence) per sample.
     ///
-    /// The paper adds the star's largest accumulated error to the local one. Here each sample adds that of the triangle
-    /// it is measured against, which is all that the triangle inequality asks for: on the bunny at 0.1 % of the diagonal
-    /// the paper's sum leaves 15,300 triangles and this one 9,200.
+    /// The paper adds the star's largest accumulated error to the local one. Here each sample adds
+    /// that of the triangle it is measured against, which is all that the triangle inequality asks
+    /// for: on the bunny at 0.1 % of the diagonal the paper's sum leaves 15,300 triangles and this
+    /// one 9,200.
     pub fn accumulated_error(&self, triangle: &Triangle, hole: &Hole, of_star: impl Fn(usize) -> f64) -> f64 {
         let through = |sample: Vector, i: usize| {
             point_triangle_distance_sq(sample, &hole.triangle(i)).sqrt() + of_star(i)
@@ -74,8 +79,8 @@ impl Sampler {
     }
 }
 
-/// The `i`-th of a sequence of points spread evenly over a triangle. The golden-ratio sequence in two dimensions stands
-/// in for the paper's random numbers: as even, and the same on every run.
+/// The `i`-th of a sequence of points spread evenly over a triangle. The golden-ratio sequence in
+/// two dimensions stands in for the paper's random numbers: as even, and the same on every run.
 fn random_weights(i: usize) -> [f64; 3] {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     let [u, v] = [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + step * (i + 1) as f64).fract());

@@ -1,5 +1,5 @@
-//! The paper's estimates of the global error (JADE, section 4): e_g1 accumulated, e_g2 from the removed vertices, and
-//! e_g3, the larger of both.
+//! The paper's estimates of the global error (JADE, section 4): e_g1 accumulated, e_g2 from the
+//! removed vertices, and e_g3, the larger of both.
 
 use super::accumulated::{Accumulated, Sampler};
 use super::limits::{Errors, Limits};

@@ -46,8 +46,8 @@ impl GlobalError {
         }
     }
 
-    /// The errors of a replacement and what it changes, without changing it. If the errors are above
-    /// the limits, only the errors, or lower bounds of them above the limits.
+    /// The errors of a replacement and what it changes, without changing it. If the errors are
+    /// above the limits, only the errors, or lower bounds of them above the limits.
     pub fn change(
         &self,
         replacement: Replacement<'_>,

@@ -1,15 +1,17 @@
 //! Removed vertices and the triangles that stand for them: the estimate e_g2 (JADE, section 4).
 //!
-//! Each removed vertex belongs to one triangle of the current mesh. When a star is replaced, its vertices go to the
-//! nearest of the new triangles. The largest distance is the estimate, and a true one-sided distance as far as the
-//! vertices go; what lies between them, and the other direction, it cannot see.
+//! Each removed vertex belongs to one triangle of the current mesh. When a star is replaced, its
+//! vertices go to the nearest of the new triangles. The largest distance is the estimate, and a
+//! true one-sided distance as far as the vertices go; what lies between them, and the other
+//! direction, it cannot see.
 
 use crate::flat::NO_INDEX;
 use crate::geometry::distance::point_triangle_distance_sq;
 use crate::geometry::vector::Vector;
 use crate::mesh::{Filling, Hole, Renumbering};
 
-/// For every slot the list of removed vertices that belong to its triangle, linked through the vertices.
+/// For every slot the list of removed vertices that belong to its triangle, linked through the
+/// vertices.
 #[derive(Clone, Debug)]
 pub struct RemovedVertices {
     first: Vec<u32>,
@@ -52,7 +54,8 @@ impl RemovedVertices {
     }
 }
 
-/// The triangle of the filling nearest to `p`, and the squared distance; the first one where several are as near.
+/// The triangle of the filling nearest to `p`, and the squared distance; the first one where
+/// several are as near.
 pub fn nearest(hole: &Hole, filling: &Filling, p: Vector) -> (usize, f64) {
     (0..filling.triangles.len())
         .map(|i| (i, point_triangle_distance_sq(p, &filling.triangle(hole, i))))

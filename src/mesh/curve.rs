@@ -1,10 +1,10 @@
-//! Numbering along a curve: what is near in space comes to be near in memory.
+//! Numbering along a curve, so that what is near in space is near in memory.
 
 use super::used::pick_values;
 use super::{Numbering, Repaired};
 
-/// Renumbers vertices along a Morton curve, and triangles by their least vertex. The mesh is the same: a decimator that walks
-/// over it misses the cache less. O(n log n).
+/// Renumbers vertices along a Morton curve, and triangles by their least vertex. The mesh is the
+/// same: a decimator that walks over it misses the cache less. O(n log n).
 pub fn along_a_curve(Repaired { mut mesh, points, looks, dropped, report }: Repaired) -> Repaired {
     // Vertices of one point keep their order: its first one stays the first.
     let numbering = Numbering::along_curve(&mesh.positions);

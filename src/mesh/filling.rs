@@ -3,14 +3,17 @@
 use super::Hole;
 use crate::geometry::vector::Vector;
 
-/// Triangles over ring indices, each in the order of the ring and so oriented like the star it replaces.
+/// Triangles over ring indices, each in the order of the ring and so oriented like the star it
+/// replaces.
 #[derive(Clone, Debug, Default)]
 pub struct Filling {
     /// Ring indices, three per triangle.
     pub triangles: Vec<[u8; 3]>,
-    /// How many of them make up the first part, when the hole was split along a feature line. All of them otherwise.
+    /// How many of them make up the first part, when the hole was split along a feature line. All
+    /// of them otherwise.
     pub n_first_part: usize,
-    /// Ring index at which each part starts; a part runs from there round to the other's start, or to the ring's end.
+    /// Ring index at which each part starts; a part runs from there round to the other's start, or
+    /// to the ring's end.
     pub part_starts: [u8; 2],
 }
 
@@ -30,13 +33,14 @@ impl Filling {
         self.part_starts[usize::from(i >= self.n_first_part)]
     }
 
-    /// Edges that are not on the ring, as pairs of ring indices with the lower first; an edge between two triangles
-    /// comes once. Includes the new boundary edge of a half disk.
+    /// Edges that are not on the ring, as pairs of ring indices with the lower first; an edge
+    /// between two triangles comes once. Includes the new boundary edge of a half disk.
     pub fn inner_edges<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = [u8; 2]> + 'a {
         self.triangles.iter().flat_map(move |&[a, b, c]| {
             [[a, b], [b, c], [c, a]].into_iter().filter_map(move |[i, j]| {
-                // Two triangles run along their common edge in opposite directions, and only one runs upwards; the
-                // boundary edge of a half disk is run once, downwards from the last ring vertex to the first.
+                // Two triangles run along their common edge in opposite directions, and only one
+                // runs upwards; the boundary edge of a half disk is run once, downwards from the
+                // last ring vertex to the first.
                 let is_boundary = !hole.closed && j == 0 && usize::from(i) + 1 == hole.n_ring();
                 let is_inner = !hole.is_ring_edge(i.into(), j.into());
                 (is_inner && (i < j || is_boundary)).then_some([i.min(j), i.max(j)])

@@ -10,10 +10,12 @@
 use super::{Surface, facing_edge};
 use crate::geometry::vector::{Vector, add, cross, sub};
 
-/// Stars of more triangles are left alone until their neighbours have gone; also what a `u8` ring index must hold.
+/// Most triangles of a star that may be removed; larger ones wait until neighbours have gone. A
+/// `u8` ring index holds as many.
 pub const MAX_VALENCE: usize = 64;
 
-/// A vertex and its star, ordered. Reused from vertex to vertex, so that nothing is allocated per candidate.
+/// A vertex and its star, ordered. Reused from vertex to vertex, so that nothing is allocated per
+/// candidate.
 #[derive(Clone, Debug, Default)]
 pub struct Hole {
     /// The vertex to be removed.
@@ -26,7 +28,8 @@ pub struct Hole {
     pub ring: Vec<u32>,
     /// Their positions.
     pub points: Vec<Vector>,
-    /// Slots of the star's triangles in order: one per ring vertex when closed, one fewer otherwise.
+    /// Slots of the star's triangles in order: one per ring vertex when closed, one fewer
+    /// otherwise.
     pub slots: Vec<u32>,
     pub(crate) spokes: Vec<Spoke>,
 }
@@ -70,8 +73,8 @@ impl Hole {
         Ok(())
     }
 
-    /// Chains the spokes into ring and slots. The start is the lowest ring vertex, or the chain's first, so that the
-    /// order does not depend on how the star happens to be listed.
+    /// Chains the spokes into ring and slots. The start is the lowest ring vertex, or the chain's
+    /// first, so that the order does not depend on how the star happens to be listed.
     fn order(&mut self) -> Result<(), NoHole> {
         let Self { closed, ring, slots, spokes, .. } = self;
         let onward = |at: u32| spokes.iter().find(|spoke| spoke.from == at);
@@ -91,8 +94,8 @@ impl Hole {
             }
             ring.push(at);
         }
-        // A way that meets itself goes round there for ever: it neither comes back to the start nor to an end. One that does has
-        // taken every spoke once.
+        // A chain that meets itself goes round there for ever and comes neither back to the start
+        // nor to an end. A chain that does has taken every spoke once.
         let is_disk = if *closed {
             at == start && slots.len() == spokes.len() && ring.len() >= 3
         } else {
@@ -101,7 +104,7 @@ impl Hole {
         if is_disk { Ok(()) } else { Err(NoHole::Complex) }
     }
 
-    /// A copy for those who need no positions any more.
+    /// A copy without positions.
     pub(crate) fn without_points(&self) -> Self {
         let Self { removed, apex, closed, ref ring, ref slots, .. } = *self;
         Self {
@@ -125,12 +128,14 @@ impl Hole {
         if i + 1 == self.ring.len() { 0 } else { i + 1 }
     }
 
-    /// Slot of the star's triangle that follows ring vertex `i`; the last one at the end of a chain.
+    /// Slot of the star's triangle that follows ring vertex `i`; the last one at the end of a
+    /// chain.
     pub fn slot_after(&self, i: usize) -> u32 {
         self.slots[i.min(self.slots.len() - 1)]
     }
 
-    /// Slot of the star's triangle that leads up to ring vertex `i`; the first one at the start of a chain.
+    /// Slot of the star's triangle that leads up to ring vertex `i`; the first one at the start of
+    /// a chain.
     pub fn slot_before(&self, i: usize) -> u32 {
         self.slots[if i > 0 {
             i - 1
@@ -152,7 +157,7 @@ impl Hole {
         cross(sub(b, a), sub(c, a))
     }
 
-    /// Area-weighted normal of the star: the normal of the average plane, of no particular length.
+    /// Area-weighted normal of the star: the normal of the average plane, of any length.
     pub fn average_normal(&self) -> Vector {
         let mut sum = [0.0; 3];
         for i in 0..self.slots.len() {
@@ -174,8 +179,9 @@ mod tests {
     use proptest::prelude::*;
     use std::collections::BTreeSet;
 
-    /// Whether the triangles `(0, from, to)` make one round of at least three, or one chain: no vertex has two on one side, one piece
-    /// holds them all, and it has as many edges as a round or a chain of its vertices has.
+    /// Whether the triangles `(0, from, to)` make one round of at least three, or one chain: no
+    /// vertex has two on one side, one piece holds them all, and it has as many edges as a round or
+    /// a chain of its vertices has.
     fn is_disk(spokes: &[[u32; 2]]) -> bool {
         let distinct = |side: usize| spokes.iter().map(|spoke| spoke[side]).collect::<BTreeSet<u32>>().len();
         let mut reached: BTreeSet<u32> = spokes[0].into();

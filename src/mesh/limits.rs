@@ -1,9 +1,10 @@
 //! How many vertices and simplices a mesh may have.
 //!
-//! Ids are `u32`, and so are places in the pools that hold stars, with up to six entries for each triangle and eight for each
-//! tetrahedron between two tidyings. What is accepted leaves room for these, and for as many fusion points as vertices: every
-//! cast of a count or place below relies on it. How much the pools of the proof hold depends on how the surface lies, so they are
-//! compared with their limit before each change.
+//! Ids are `u32`, and so are places in the pools that hold stars, with up to six entries for each
+//! triangle and eight for each tetrahedron between two tidyings. What is accepted leaves room for
+//! these, and for as many fusion points as vertices: every cast of a count or place below relies on
+//! it. How much the pools of the proof hold depends on how the surface lies, so they are compared
+//! with their limit before each change.
 
 /// Most vertices that are accepted.
 pub const MAX_VERTICES: usize = (u32::MAX / 2) as usize;

@@ -1,8 +1,8 @@
 //! Vertices and triangles in flat arrays: what a decimator works on.
 //!
-//! [`repair`] turns whatever a file held into triangles that a decimator can trust; [`Surface`] is the mesh while it
-//! is being simplified, with the star of every vertex at hand; a [`Hole`] is such a star on its way out, and a
-//! [`Filling`] what closes it.
+//! [`repair`] turns whatever a file held into triangles that a decimator can trust; [`Surface`] is
+//! the mesh while it is being simplified, with the star of every vertex at hand; a [`Hole`] is a
+//! star about to be removed, and a [`Filling`] what closes it.
 
 mod curve;
 mod filling;

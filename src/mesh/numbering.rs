@@ -1,7 +1,9 @@
-//! Numbers along a curve through space, so that a star and what it stands for lie together in memory.
+//! Numbers along a curve through space, so that a star and what it stands for lie together in
+//! memory.
 //!
-//! The order of a file says little about what is near what: scanners write stripes, modellers write parts. Every array of
-//! the decimation runs parallel to the vertices or to the triangles, so their order decides how often it waits for memory.
+//! The order of a file says little about what is near what: scanners write stripes, modellers write
+//! parts. Every array of the decimation runs parallel to the vertices or to the triangles, so their
+//! order decides how often it waits for memory.
 
 use crate::geometry::morton::Grid;
 use rayon::prelude::*;

@@ -1,7 +1,8 @@
 //! Slots closing up behind those that have become empty.
 //!
-//! A decimation leaves ever fewer triangles in the slots of the input. Every array that runs parallel to the slots would stay as long as
-//! it was, and the triangles that are left would lie ever farther apart in memory.
+//! A decimation leaves ever fewer triangles in the slots of the input. Every array that runs
+//! parallel to the slots would stay as long as it was, and the triangles that are left would lie
+//! ever farther apart in memory.
 
 use crate::flat::NO_INDEX;
 
@@ -16,7 +17,8 @@ pub struct Renumbering {
 }
 
 impl Renumbering {
-    /// Numbers the slots of which `are_used` tells that they are, at most `u32::MAX` of them. O(slots).
+    /// Numbers the slots for which `are_used` is true, at most `u32::MAX` of them.
+    /// O(slots).
     pub fn new(are_used: impl Iterator<Item = bool>) -> Self {
         let mut next = 0;
         let mut place = |is_used| {

@@ -25,13 +25,14 @@ impl Seams {
         (over_points, Some(Self::new(triangles, looks)))
     }
 
-    /// Seams of a mesh whose slot `t` has the vertices `triangles[t]`, and whose vertices look the same where their entries
-    /// in `looks` agree.
+    /// Seams of a mesh whose slot `t` has the vertices `triangles[t]`, and whose vertices look the
+    /// same where their entries in `looks` agree.
     pub fn new(triangles: Vec<[u32; 3]>, looks: Vec<u32>) -> Self {
         Self { vertices: triangles, looks }
     }
 
-    /// Whether the surface looks different on either side of a common point of the triangles in two slots.
+    /// Whether the surface looks different on either side of a common point of the triangles in two
+    /// slots.
     pub fn differ(&self, surface: &Surface, slots: [u32; 2], point: u32) -> bool {
         let [a, b] = slots.map(|slot| self.looks[self.vertex(surface, slot, point) as usize]);
         a != b
@@ -48,15 +49,15 @@ impl Seams {
         self.vertices[slot as usize]
     }
 
-    /// The one vertex that all triangles at `point` have there; `None` where they have several.
+    /// The one vertex that all triangles at `point` have there; `None` if they have several.
     pub fn only_vertex(&self, surface: &Surface, point: u32) -> Option<u32> {
         let mut vertices = surface.star(point).iter().map(|&slot| self.vertex(surface, slot, point));
         let first = vertices.next()?;
         vertices.all(|v| v == first).then_some(first)
     }
 
-    /// Gives the triangles at `point`, which have one vertex there, the vertex `new` instead, which has the next number. It looks
-    /// like the one before, whose number is returned.
+    /// Gives the triangles at `point`, which have one vertex there, the vertex `new` instead, which
+    /// has the next number. It looks like the one before, whose number is returned.
     pub fn rename(&mut self, surface: &Surface, point: u32, new: u32) -> u32 {
         debug_assert_eq!(new as usize, self.looks.len());
         let star = surface.star(point);

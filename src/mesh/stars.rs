@@ -1,8 +1,9 @@
 //! The star of every vertex: which triangles meet there, while triangles come and go.
 //!
-//! The naive way, a `Vec` per vertex, costs an allocation per vertex and scatters the lists over the heap. Here all
-//! lists share one pool: a list that outgrows its place moves to the pool's end, and [`Stars::compact`] closes the
-//! gaps that moves leave. Works for any triangles at all, manifold or not.
+//! The naive way, a `Vec` per vertex, costs an allocation per vertex and scatters the lists over
+//! the heap. Here all lists share one pool: a list that outgrows its place moves to the pool's end,
+//! and [`Stars::compact`] closes the gaps that moves leave. Works for any triangles at all,
+//! manifold or not.
 
 use super::Renumbering;
 use crate::flat::to_index;
@@ -21,7 +22,8 @@ struct SlotRange {
     capacity: u32,
 }
 
-/// Room left in each list at the start: a removal can add a triangle to a neighbour's star before it takes others away.
+/// Room left in each list at the start: a removal can add a triangle to a neighbour's star before
+/// it takes others away.
 const SPARE: u32 = 1;
 
 /// The edge of a triangle that faces its corner `v`, in the triangle's orientation.
@@ -140,8 +142,9 @@ impl Stars {
     }
 }
 
-/// Where `slot` is in `members`: blocks are searched without a branch per entry, so that removing the rim of a fan, each time
-/// out of the star of its hub, stays cheap at valences of a hundred thousand.
+/// Where `slot` is in `members`: blocks are searched without a branch per entry, so that removing
+/// the rim of a fan, each time out of the star of its hub, stays cheap at valences of a hundred
+/// thousand.
 fn position(members: &[u32], slot: u32) -> Option<usize> {
     const BLOCK: usize = 64;
     let holds = |block: &[u32]| block.iter().fold(false, |found, &member| found | (member == slot));

@@ -27,11 +27,13 @@ use crate::mesh::Renumbering;
 pub struct Portion {
     /// The triangle it is mapped into.
     pub slot: u32,
-    /// Where it ends, as a part of the edge from its lower to its higher vertex; where the next one starts.
+    /// Where it ends, as a part of the edge from its lower to its higher vertex; where the next one
+    /// starts.
     pub end: f32,
 }
 
-/// Words that the chains of a scanned mesh take at most, gaps included, for each edge of the input: 3.5 to 4.
+/// Words that the chains of a scanned mesh take at most, gaps included, for each edge of the input:
+/// 3.5 to 4.
 const USUAL_WORDS: usize = 4;
 
 /// Words that a portion takes.
@@ -53,7 +55,7 @@ impl Chains {
         self.0.has(edge)
     }
 
-    /// Portions of `edge` in order; none where the whole edge is one portion.
+    /// Portions of `edge` in order; empty if the whole edge is one portion.
     #[inline]
     pub fn of(&self, edge: u32) -> &[Portion] {
         bytemuck::cast_slice(self.0.of(edge))
@@ -71,7 +73,8 @@ impl Chains {
         HEADER * n_chains + WORDS * n_portions
     }
 
-    /// Replaces the chain of `edge` by `portions`; fewer than two portions need no chain. O(portions).
+    /// Replaces the chain of `edge` by `portions`; fewer than two portions need no chain.
+    /// O(portions).
     pub fn set(&mut self, edge: u32, portions: &[Portion]) {
         if portions.len() < 2 {
             self.0.clear(edge);

@@ -46,7 +46,8 @@ impl MapChange {
         }
     }
 
-    /// Empties the slots of `hole` and fills those of its filling, and shows `take` each vertex with the slot it is mapped into.
+    /// Empties the slots of `hole` and fills those of its filling, and shows `take` each vertex
+    /// with the slot it is mapped into.
     pub(super) fn fill_slots(
         &self,
         hole: &Hole,

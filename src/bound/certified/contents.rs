@@ -1,17 +1,19 @@
 //! What of the input is mapped into each triangle of the current mesh.
 //!
-//! A removal reads the contents of the star's slots and writes those of the filling's; in between nothing changes but that
-//! a chain may be shortened where it no longer needs a triangle. So the contents of a slot are written once, side by side, and an
-//! edge may be listed in a slot that its chain has left since: whoever reads asks the chain.
+//! A removal reads the contents of the star's slots and writes those of the filling's; in between
+//! nothing changes but that a chain may be shortened where it no longer needs a triangle. So the
+//! contents of a slot are written once, side by side, and an edge may be listed in a slot that its
+//! chain has left since: readers look at the chain.
 
 use super::records::{HEADER, Records};
 use crate::mesh::Renumbering;
 
-/// Words that the contents of a scanned mesh take at most, gaps included, for each triangle of the input: 3 to 3.5.
+/// Words that the contents of a scanned mesh take at most, gaps included, for each triangle of the
+/// input: 3 to 3.5.
 const USUAL_WORDS: usize = 3;
 
-/// Source vertices in each slot, and source edges whose chain has a portion there: records of slots, which are the number of
-/// vertices, the vertices and the edges.
+/// Source vertices in each slot, and source edges whose chain has a portion there: records of
+/// slots, which are the number of vertices, the vertices and the edges.
 #[derive(Clone, Debug)]
 pub struct Contents(Records);
 

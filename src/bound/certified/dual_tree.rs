@@ -1,14 +1,16 @@
 //! The dual tree of a filling: triangles of a hole as nodes, inner edges between them as links.
 //!
-//! A triangulated polygon has no inner vertex, so its dual has no cycle, and between two of its triangles runs exactly
-//! one path. That is what makes the image of a source edge across a hole a matter of its two ends alone.
+//! A triangulated polygon has no inner vertex, so its dual has no cycle, and between two of its
+//! triangles runs exactly one path. That is what makes the image of a source edge across a hole a
+//! matter of its two ends alone.
 
 use crate::mesh::{Filling, Hole, MAX_VALENCE};
 
 /// Most triangles of a filling.
 const MAX_TRIANGLES: usize = MAX_VALENCE;
 
-/// Parents and depths of a filling's triangles, rooted at triangle 0, and the triangle at each ring edge.
+/// Parents and depths of a filling's triangles, rooted at triangle 0, and the triangle at each ring
+/// edge.
 #[derive(Clone, Debug)]
 pub struct DualTree {
     parent: [u8; MAX_TRIANGLES],
@@ -75,7 +77,8 @@ impl DualTree {
         }
     }
 
-    /// The triangle at the edge from ring vertex `i` to the next; for the last one of a chain, at the new boundary edge.
+    /// The triangle at the edge from ring vertex `i` to the next; for the last one of a chain, at
+    /// the new boundary edge.
     pub fn at_ring_edge(&self, i: usize) -> u8 {
         self.at_ring_edge[i]
     }

@@ -1,8 +1,9 @@
-//! What the map takes onto the star of a vertex, and how far: what has to be known before the vertex may move.
+//! What the map takes onto the star of a vertex, and how far: what has to be known before the
+//! vertex may move.
 //!
-//! A vertex that moves takes its star along. No triangle meets another one than before, so every source vertex keeps its
-//! triangle and every crossing its edge, and only the nearest points in them are new. Nothing outside the star changes,
-//! and the link stays where it is.
+//! A vertex that moves takes its star along. No triangle meets another one than before, so every
+//! source vertex keeps its triangle and every crossing its edge, and only the nearest points in
+//! them are new. Nothing outside the star changes, and the link stays where it is.
 
 use super::route::point_at;
 use super::{Certified, NOT_ON_RIM};
@@ -31,7 +32,8 @@ pub enum Onto {
 }
 
 impl Image {
-    /// From the source to its image, and the vertex's share in the image, when the vertex is at `apex`.
+    /// From the source to its image, and the vertex's share in the image, when the vertex is at
+    /// `apex`.
     pub fn displacement(&self, apex: Vector) -> (Vector, f64) {
         match self.onto {
             Onto::Vertex => (sub(self.source, apex), 1.0),
@@ -51,8 +53,8 @@ impl Image {
 }
 
 impl Certified {
-    /// Puts everything that is mapped onto the star of the inner vertex `v` into `images`. False where a crossing does not
-    /// tell which edge it is on; then `v` has to stay.
+    /// Puts everything that is mapped onto the star of the inner vertex `v` into `images`. False if
+    /// it is not clear which edge a crossing is on; then `v` has to stay.
     ///
     /// O(vertices and edges mapped into the star).
     pub fn images_at(&self, surface: &Surface, v: u32, images: &mut Vec<Image>) -> bool {
@@ -62,7 +64,8 @@ impl Certified {
         for &slot in surface.star(v) {
             let (from, to) = facing_edge(surface.corners(slot), v);
             let onto = Onto::Triangle([from, to].map(|corner| surface.point(corner)));
-            // A vertex on the rim of the mesh is mapped to an edge there, which the star of an inner vertex has in its link.
+            // A vertex on the rim of the mesh is mapped to an edge there, which the star of an
+            // inner vertex has in its link.
             let vertices = self.contents.vertices(slot).iter().copied();
             let moving = vertices.filter(|&x| self.rim_corner[x as usize] == NOT_ON_RIM);
             images.extend(moving.map(|x| Image { source: surface.origin(x), onto }));

@@ -4,7 +4,8 @@ use crate::geometry::height_triangle::HeightTriangle;
 use crate::geometry::vector::{Vector, cross, dot, sub};
 use crate::mesh::{Filling, Hole};
 
-/// The triangles of a filling, and the half-spaces beside its inner edges, upright on the average plane of its hole.
+/// The triangles of a filling, and the half-spaces beside its inner edges, upright on the average
+/// plane of its hole.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Location {
     /// The triangles; `None` for those too thin to measure heights over.
@@ -43,13 +44,14 @@ impl Location {
         }
     }
 
-    /// Squared distance of `p` to a triangle that is below it in the direction of the triangle's own normal; nothing where it is not.
+    /// Squared distance of `p` to a triangle; `None` unless `p` lies over it along its normal.
     #[inline]
     pub(super) fn height_sq(&self, triangle: usize, p: Vector) -> Option<f64> {
         self.triangles[triangle].as_ref()?.height_sq(p)
     }
 
-    /// A triangle whose inner edges all have `p` on their left: `guess` where that is one, or else the first.
+    /// A triangle whose inner edges all have `p` on their left: `guess` where that is one, or else
+    /// the first.
     #[inline]
     pub(super) fn find(&self, p: Vector, guess: usize) -> Option<usize> {
         if self.holds(guess, p) {

@@ -1,8 +1,9 @@
 //! Records of words, side by side in one pool, each found by its owner.
 //!
-//! A list per owner would cost an allocation each, and lists linked through their members scatter over memory: following them
-//! was a third of the build. Here a record that changes is written anew behind the others, and [`Records::close_up`] closes the
-//! gaps where they are, without a second pool. What changed together then lies together.
+//! A list per owner would cost an allocation each, and lists linked through their members scatter
+//! over memory: following them was a third of the build. Here a record that changes is written anew
+//! behind the others, and [`Records::close_up`] closes the gaps where they are, without a second
+//! pool. What changed together then lies together.
 
 use crate::flat::NO_INDEX;
 use crate::mesh::Renumbering;
@@ -26,8 +27,8 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// No record, for any of `n_owners` owners, and room for `n_words`: memory that is not touched before it is needed, and that a pool
-    /// which grew as it goes would leave behind in pieces.
+    /// No record, for any of `n_owners` owners, and room for `n_words`: memory that is not touched
+    /// before it is needed, and that a pool which grew as it goes would leave behind in pieces.
     pub(super) fn new(n_owners: usize, n_words: usize) -> Self {
         Self { first: vec![NO_INDEX; n_owners], words: Vec::with_capacity(n_words), n_used: 0, n_touched: 0 }
     }
@@ -38,7 +39,7 @@ impl Records {
         self.first[owner as usize] != NO_INDEX
     }
 
-    /// The record of `owner`; empty where there is none.
+    /// The record of `owner`; empty if there is none.
     #[inline]
     pub(super) fn of(&self, owner: u32) -> &[u32] {
         match self.words.get(self.first[owner as usize] as usize..) {
@@ -47,7 +48,8 @@ impl Records {
         }
     }
 
-    /// Words of the pool, gaps and headers included: at most [`MAX_PLACES`](crate::mesh::MAX_PLACES), which whoever writes sees to.
+    /// Words of the pool, gaps and headers included: at most
+    /// [`MAX_PLACES`](crate::mesh::MAX_PLACES), which writers check.
     #[inline]
     pub(super) fn n_words(&self) -> usize {
         self.words.len()

@@ -1,4 +1,5 @@
-//! What a removal means for the map: where its vertices and edges lie in the star and in the filling.
+//! What a removal means for the map: where its vertices and edges lie in the star and in the
+//! filling.
 
 use super::labels::Labels;
 use super::star::OUTSIDE;
@@ -34,7 +35,8 @@ impl Removal<'_> {
         found.unwrap_or_default() as u8
     }
 
-    /// Shows `take` the source edges with a chain through the star, in each slot that lists them, until it breaks.
+    /// Shows `take` the source edges with a chain through the star, in each slot that lists them,
+    /// until it breaks.
     #[inline]
     pub(super) fn try_each_chained_edge(
         &self,
@@ -48,9 +50,9 @@ impl Removal<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Shows `take` the source edges without a chain that are to get one, with their ends, given where
-    /// the vertices go, each once, until it breaks. Both ends are corners of the star or mapped into
-    /// it; an edge is found at its lower end.
+    /// Shows `take` the source edges without a chain that are to get one, with their ends, given
+    /// where the vertices go, each once, until it breaks. Both ends are corners of the star or
+    /// mapped into it; an edge is found at its lower end.
     #[inline]
     pub(super) fn try_each_split_edge(
         &self,
@@ -81,8 +83,8 @@ impl Removal<'_> {
         ControlFlow::Continue(())
     }
 
-    /// A triangle for a covered vertex, and its squared distance: the one that it lies over if that is
-    /// within the limit, or else the nearest one.
+    /// A triangle for a covered vertex, and its squared distance: the one that it lies over if that
+    /// is within the limit, or else the nearest one.
     #[expect(clippy::cast_possible_truncation, reason = "a filling has fewer than MAX_VALENCE triangles")]
     #[inline]
     pub(super) fn near(&self, p: Vector, over: Option<usize>, limit_sq: f64) -> (u8, f64) {
@@ -98,7 +100,8 @@ impl Removal<'_> {
         self.replacement.filling.corners(self.replacement.hole, label.into()).contains(&v)
     }
 
-    /// End points of the ring edge after ring vertex `i`; for the last one of a chain, of the new boundary edge.
+    /// End points of the ring edge after ring vertex `i`; for the last one of a chain, of the new
+    /// boundary edge.
     pub(super) fn ring_edge(&self, i: usize) -> Segment {
         [self.replacement.hole.points[i], self.replacement.hole.points[self.replacement.hole.next(i)]]
     }
@@ -141,7 +144,8 @@ impl Removal<'_> {
         v != self.replacement.hole.removed && self.certified.is_alive(v)
     }
 
-    /// Whether the triangle in `slot`, which is `label` of the filling or outside the hole, has the corner `v`.
+    /// Whether the triangle in `slot`, which is `label` of the filling or outside the hole, has the
+    /// corner `v`.
     #[inline]
     pub(super) fn touches(&self, slot: u32, label: u8, v: u32) -> bool {
         if label == OUTSIDE {

@@ -116,8 +116,8 @@ impl Route {
                 at += 1;
                 continue;
             }
-            // A run of portions in the star is one span of the hole. Its ends keep their places: they
-            // are crossings of ring edges, which stay, or ends of the edge.
+            // A run of portions in the star is one span of the hole. Its ends keep their places:
+            // they are crossings of ring edges, which stay, or ends of the edge.
             let n_inside = self.old_labels[at..].iter().take_while(|&&label| label != OUTSIDE).count();
             let last = at + n_inside - 1;
             let entry =
@@ -154,14 +154,14 @@ impl Route {
         self.labels.clear();
     }
 
-    /// Takes out what the chain does not need: going over an edge and straight back, and turning about a vertex that is
-    /// its own image.
+    /// Takes out what the chain does not need: going over an edge and straight back, and turning
+    /// about a vertex that is its own image.
     pub(super) fn shorten(&mut self, removal: Removal<'_>) {
         let &mut Self { ends: [low, high], ref mut portions, ref mut labels, .. } = self;
         let touches = |portion: Portion, label, v| removal.touches(portion.slot, label, v);
         let mut kept = 0;
-        // Like a stack of brackets: a portion that returns to the triangle before the last takes the
-        // last one with it.
+        // Like a stack of brackets: a portion that returns to the triangle before the last takes
+        // the last one with it.
         for at in 0..portions.len() {
             let (portion, label) = (portions[at], labels[at]);
             if kept >= 2 && portions[kept - 2].slot == portion.slot {
@@ -216,8 +216,9 @@ impl Route {
         largest_sq
     }
 
-    /// Puts the path between two ends into `self.path` and returns the triangle it starts in. An end at a ring vertex
-    /// is taken in the triangle around that vertex that makes the path shortest.
+    /// Puts the path between two ends into `self.path` and returns the triangle it starts in. An
+    /// end at a ring vertex is taken in the triangle around that vertex that makes the path
+    /// shortest.
     fn find_path(&mut self, tree: &DualTree, entry: SpanEnd, exit: SpanEnd) -> u8 {
         let any_triangle = |end| match end {
             SpanEnd::InTriangle(triangle) => triangle,
@@ -242,8 +243,8 @@ impl Route {
     }
 }
 
-/// Where the source edge, between `start` and `end`, comes nearest to `target`, as a part of the edge, and the squared
-/// distance there.
+/// Where the source edge, between `start` and `end`, comes nearest to `target`, as a part of the
+/// edge, and the squared distance there.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "any f32 between start and end will do, it is exact from then on"

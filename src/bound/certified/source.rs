@@ -3,8 +3,9 @@
 use crate::flat::{Groups, to_index};
 use std::ops::Range;
 
-/// Edges of a triangle mesh, in flat arrays. Edges are numbered by their lower end, then by
-/// their higher one, so that those to higher vertices lie side by side, and the lower end need not be written down.
+/// Edges of a triangle mesh, in flat arrays. Edges are numbered by their lower end, then by their
+/// higher one, so that those to higher vertices lie side by side, and the lower end need not be
+/// written down.
 ///
 /// Memory: 4 bytes per edge and per vertex; 12 per triangle more while it is made.
 #[derive(Clone, Debug)]
@@ -73,8 +74,8 @@ impl SourceEdges {
         (start..end).zip(self.highs[start as usize..end as usize].iter().copied())
     }
 
-    /// Those of the edges [up](Self::up) from `v` that lead to one of `others`, and maybe more of them. O(edges up from `v`), or
-    /// O(others log edges) at a hub of many edges.
+    /// Those of the edges [up](Self::up) from `v` that lead to one of `others`, and maybe more of
+    /// them. O(edges up from `v`), or O(others log edges) at a hub of many edges.
     #[inline]
     pub fn up_to(&self, v: u32, others: &[u32]) -> impl Iterator<Item = (u32, u32)> {
         let is_hub = self.n_up(v) > HUB.max(others.len());
@@ -101,8 +102,8 @@ impl SourceEdges {
     }
 }
 
-/// Sorts the members of a group, which are at `from`, and writes each of them once to the places from
-/// `to` on, which must not be behind theirs. How many there are.
+/// Sorts the members of a group, which are at `from`, and writes each of them once to the places
+/// from `to` on, which must not be behind theirs. How many there are.
 fn sort_and_keep_distinct(members: &mut [u32], from: Range<usize>, to: usize) -> usize {
     members[from.clone()].sort_unstable();
     let mut n_kept = 0;

@@ -6,7 +6,8 @@ pub(super) const OUTSIDE: u8 = u8::MAX;
 /// Places of the table, of which a star takes a few.
 const N_PLACES: usize = 256;
 
-/// The slots of a star's triangles, found by their lowest bits: those of most triangles of a star differ, being near each other.
+/// The slots of a star's triangles, found by their lowest bits: those of most triangles of a star
+/// differ, being near each other.
 #[derive(Clone, Debug)]
 pub(super) struct StarIndex {
     slots: Vec<u32>,

@@ -23,7 +23,8 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// What the removal changes, and the largest displacement; or a lower bound of that, above `limit`, alone.
+    /// What the removal changes, and the largest displacement; or a lower bound of that, above
+    /// `limit`, alone.
     pub(super) fn change(
         &mut self,
         certified: &Certified,
@@ -51,16 +52,19 @@ impl Transfer {
         result
     }
 
-    /// The source vertices mapped into the star of `hole`, in the buffer for them, to be given back.
+    /// The source vertices mapped into the star of `hole`, in the buffer for them, to be given
+    /// back.
     fn gather(&mut self, certified: &Certified, hole: &Hole) -> Vec<u32> {
         let mut covered = std::mem::take(&mut self.covered);
         certified.gather(hole, &mut covered);
         covered
     }
 
-    /// Gives every source edge that the removal moves its new chain and, as long as nothing is above the limit, shows it to `take`.
-    /// Largest squared displacement inside the hole, or a lower bound of it above the limit: vertices come first, then the edges
-    /// that have no chain yet, which are fewer than the others, and what is above the limit by then is not followed up.
+    /// Gives every source edge that the removal moves its new chain and, as long as nothing is
+    /// above the limit, shows it to `take`. Largest squared displacement inside the hole, or a
+    /// lower bound of it above the limit: vertices come first, then the edges that have no chain
+    /// yet, which are fewer than the others, and what is above the limit by then is not followed
+    /// up.
     #[inline]
     fn walk(
         &mut self,
@@ -94,8 +98,8 @@ impl Transfer {
         largest_sq
     }
 
-    /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared displacement, or the
-    /// first above `reach_sq`.
+    /// Gives every vertex mapped into the hole a triangle of the filling; the largest squared
+    /// displacement, or the first above `reach_sq`.
     fn place_vertices(&mut self, removal: Removal<'_>, [limit_sq, reach_sq]: [f64; 2]) -> f64 {
         let Removal { replacement: Replacement { surface, hole, filling }, covered, .. } = removal;
         let HoleMap { tree, labels, star } = &mut self.hole_map;

@@ -23,7 +23,8 @@ pub struct Judged {
     pub refusals: Vec<(u32, Refusal)>,
 }
 
-/// Plans the removal of every vertex of the batch under `limits`, in parallel. In order, a few together.
+/// Plans the removal of every vertex of the batch under `limits`, in parallel. In order, a few
+/// together.
 pub fn plan_all(state: &State, limits: Limits, batch: &[u32]) -> Vec<Judged> {
     let situation = state.situation();
     let plan_chunk = |chunk: &[u32]| {
@@ -47,7 +48,8 @@ fn chunk_len(n: usize) -> usize {
     (n / (CHUNKS_PER_THREAD * rayon::current_num_threads())).clamp(1, CHUNK)
 }
 
-/// Carries the plans out, which are [independent](Claims::take_independent) of each other, one step each.
+/// Carries the plans out, which are [independent](Claims::take_independent) of each other, one step
+/// each.
 ///
 /// # Errors
 ///
@@ -80,7 +82,8 @@ pub struct Claims {
 }
 
 impl Claims {
-    /// Takes those plans that are independent of all before them, and gives the vertices of the others.
+    /// Takes those plans that are independent of all before them, and gives the vertices of the
+    /// others.
     pub fn take_independent(&mut self, plans: Vec<Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
         let (independent, overtaken): (Vec<_>, Vec<_>) = plans.into_iter().partition(|plan| self.claim(plan));
         self.clear();
@@ -184,7 +187,8 @@ mod tests {
         TriangleMesh { positions, triangles, ..TriangleMesh::default() }
     }
 
-    /// Plans for vertices of which no two are neighbours, the last ones first: of a bipyramid the two tops.
+    /// Plans for vertices of which no two are neighbours, the last ones first: of a bipyramid the
+    /// two tops.
     fn plan_independent(surface: &Surface, error: &GlobalError) -> Vec<Plan> {
         let names = Names::new(Numbering::along_curve(surface.positions()), None, Placement::Original);
         let situation =

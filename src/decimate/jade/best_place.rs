@@ -1,10 +1,12 @@
-//! Where a vertex does best: the place at which the largest displacement of what is mapped onto its star is least.
+//! Where a vertex does best: the place at which the largest displacement of what is mapped onto its
+//! star is least.
 //!
-//! With the images held at their shares of the vertex, moving it by `m` turns a displacement `d` into `d - share m`. The
-//! largest of these is convex in `m` and its minimum a weighted minimax problem, for which Lawson's iteration solves weighted
-//! least squares with weights that grow where the residual is large (C. L. Lawson, "Contributions to the theory of linear
-//! least maximum approximation", 1961). Shares then change, so both are repeated, and a place counts only when the exact
-//! displacements there are smaller.
+//! With the images held at their shares of the vertex, moving it by `m` turns a displacement `d`
+//! into `d - share m`. The largest of these is convex in `m` and its minimum a weighted minimax
+//! problem, for which Lawson's iteration solves weighted least squares with weights that grow where
+//! the residual is large (C. L. Lawson, "Contributions to the theory of linear least maximum
+//! approximation", 1961). Shares then change, so both are repeated, and a place counts only when
+//! the exact displacements there are smaller.
 
 use crate::bound::certified::images::{Image, largest_sq};
 use crate::geometry::bounds::Bounds;
@@ -106,8 +108,8 @@ mod tests {
 
     const SPACE: Bounds = Bounds { low: [-9.0; 3], high: [9.0; 3] };
 
-    /// A flat tent over a square: each of its four faces stands for a point at height 1 over the middle between the apex and
-    /// the far edge.
+    /// A flat tent over a square: each of its four faces stands for a point at height 1 over the
+    /// middle between the apex and the far edge.
     fn tent() -> Vec<Image> {
         let corners = [[1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]];
         let mut images = vec![Image { source: [0.0; 3], onto: Onto::Vertex }];
@@ -122,7 +124,8 @@ mod tests {
     #[test]
     fn the_apex_of_a_tent_shares_the_error_with_its_faces() {
         let ([x, y, z], largest_sq) = best_place(&tent(), [0.0; 3], SPACE, |_| true).unwrap();
-        // With the apex at height z, a face is (1 - z/2) / sqrt(1 + z^2) below its point, which is z at z = 0.6023.
+        // With the apex at height z, a face is (1 - z/2) / sqrt(1 + z^2) below its point, which is
+        // z at z = 0.6023.
         assert!(x.abs() < 1e-3 && y.abs() < 1e-3 && (z - 0.602).abs() < 0.02, "{x} {y} {z}");
         assert!((largest_sq.sqrt() - 0.602).abs() < 0.02);
     }

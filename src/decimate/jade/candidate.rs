@@ -50,7 +50,7 @@ pub struct Scratch {
     pub images: Vec<Image>,
 }
 
-/// Leaves hole and filling of `v` in `scratch`, or tells why they need not be looked at.
+/// Puts hole and filling of `v` into `scratch`, or returns why it stays.
 pub(super) fn fill(
     situation: Situation<'_>,
     v: u32,

@@ -1,9 +1,10 @@
-//! Topological classification of a vertex (JADE, section 3; Schroeder, Zarge and Lorensen, "Decimation of triangle
-//! meshes", SIGGRAPH 1992, section 3.1).
+//! Topological classification of a vertex (JADE, section 3; Schroeder, Zarge and Lorensen,
+//! "Decimation of triangle meshes", SIGGRAPH 1992, section 3.1).
 //!
-//! There a corner is never removed, since nothing else would hold a sharp tip in place. Here every removal is under a
-//! bound on the global error, which holds the tip by itself: a corner goes when the bound lets it go, without it no
-//! mesh with sharp features would ever reach its coarsest levels. Only corners of seams stay.
+//! There a corner is never removed, since nothing else would hold a sharp tip in place. Here every
+//! removal is under a bound on the global error, which holds the tip by itself: a corner goes when
+//! the bound lets it go, without it no mesh with sharp features would ever reach its coarsest
+//! levels. Only corners of seams stay.
 
 use crate::geometry::vector::{dot, length_sq};
 use crate::mesh::{Hole, Seams, Surface};
@@ -15,7 +16,8 @@ pub enum Class {
     Simple,
     /// On the boundary of the surface.
     Boundary,
-    /// On a feature line that passes through: the hole is split along the new edge between these two ring vertices.
+    /// On a feature line that passes through: the hole is split along the new edge between these
+    /// two ring vertices.
     InteriorEdge([usize; 2]),
     /// One, or more than two, feature edges meet here.
     Corner,
@@ -23,8 +25,8 @@ pub enum Class {
     SeamCorner,
 }
 
-/// Classifies the vertex of `hole`. `cos_feature_angle` is that of the angle between normals above which an edge is
-/// a feature edge; every edge of a seam is one. O(valence).
+/// Classifies the vertex of `hole`. `cos_feature_angle` is that of the angle between normals above
+/// which an edge is a feature edge; every edge of a seam is one. O(valence).
 pub fn classify(hole: &Hole, surface: &Surface, seams: Option<&Seams>, cos_feature_angle: f64) -> Class {
     let mut features = [0; 2];
     let mut n_features = 0;

@@ -1,24 +1,28 @@
-//! Source edges at the removed vertex, and how far the inner edges of a filling would be from where they cross them.
+//! Source edges at the removed vertex, and how far the inner edges of a filling would be from where
+//! they cross them.
 //!
-//! A removal that the proof refuses fails at such a crossing four times out of five. Their distances cost little and do not depend on
-//! the triangles beside the edge: what no choice of inner edges can avoid ends a candidate before anything else of it is looked at.
+//! A removal that the proof refuses fails at such a crossing four times out of five. Their
+//! distances cost little and do not depend on the triangles beside the edge: what no choice of
+//! inner edges can avoid ends a candidate before anything else of it is looked at.
 
 use crate::bound::certified::Certified;
 use crate::geometry::prepared::larger;
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::{Hole, Surface};
 
-/// Of two lines more nearly parallel than this, as the squared sine, the distance is not worth asking for.
+/// Of two lines more nearly parallel than this, as the squared sine, the distance is not worth
+/// asking for.
 const PARALLEL: f64 = 1e-12;
 
-/// Source edges at the vertex of a hole, as far as they get a chain if they cross an edge inside it.
+/// Source edges at the vertex of a hole, as far as they get a chain if they cross an edge inside
+/// it.
 #[derive(Clone, Debug, Default)]
 pub struct Crossings {
     /// Where the removed vertex is in the input.
     origin: Vector,
     /// Normal of the hole's average plane.
     up: Vector,
-    /// Per ring vertex, the source edge that ends there; one of no length where there is none.
+    /// Per ring vertex, the source edge that ends there; of length 0 if there is none.
     to_corners: Vec<SourceEdge>,
     /// The others, to covered vertices.
     to_covered: Vec<SourceEdge>,
@@ -32,8 +36,8 @@ struct SourceEdge {
 }
 
 impl Crossings {
-    /// Makes these the edges at the vertex of `hole`, whose average plane has the normal `up`, given the source vertices mapped into its
-    /// star. O(valence).
+    /// Makes these the edges at the vertex of `hole`, whose average plane has the normal `up`,
+    /// given the source vertices mapped into its star. O(valence).
     pub fn gather(
         &mut self,
         surface: &Surface,
@@ -57,17 +61,20 @@ impl Crossings {
         });
     }
 
-    /// Largest squared distance of the source edges that would cross the edge between two ring vertices from the line of that edge. It is
-    /// the distance of two lines: that of the edges where they cross over each other, and no more elsewhere.
+    /// Largest squared distance of the source edges that would cross the edge between two ring
+    /// vertices from the line of that edge. It is the distance of two lines: that of the edges
+    /// where they cross over each other, and no more elsewhere.
     pub fn largest_sq(&self, hole: &Hole, [i, j]: [u8; 2]) -> f64 {
         let (i, j) = (usize::from(i.min(j)), usize::from(i.max(j)));
         let (start, along) = (hole.points[i], sub(hole.points[j], hole.points[i]));
         let across = cross(self.up, along);
-        // The vertex of a half disk goes to the new boundary edge, with all inner edges on one side of it.
+        // The vertex of a half disk goes to the new boundary edge, with all inner edges on one side
+        // of it.
         let apex_is_left = !hole.closed || dot(across, sub(hole.apex, start)) >= 0.0;
         let from_origin = sub(start, self.origin);
         let level = dot(across, from_origin);
-        // With the two directions d and a and the way w from line to line: d x a . w = d . a x w, |d x a|^2 = |d|^2 |a|^2 - (d . a)^2.
+        // With the two directions d and a and the way w from line to line: d x a . w = d . a x w,
+        // |d x a|^2 = |d|^2 |a|^2 - (d . a)^2.
         let moment = cross(along, from_origin);
         let along_sq = length_sq(along);
         let mut worst = Ratio { over: 0.0, under: 1.0 };
@@ -111,7 +118,8 @@ mod tests {
     use super::*;
     use crate::geometry::distance::segment_segment_distance_sq;
 
-    /// A fan of six triangles around vertex 3, which is neither the lowest nor the highest, nor in the middle.
+    /// A fan of six triangles around vertex 3, which is neither the lowest nor the highest, nor in
+    /// the middle.
     fn fan() -> (Surface, Hole) {
         let ring = [0, 1, 2, 4, 5, 6];
         let mut positions = vec![[0.1, 0.2, 0.5]; 7];
@@ -126,7 +134,8 @@ mod tests {
         (surface, hole)
     }
 
-    /// In the input every spoke is a source edge without a chain: an inner edge is crossed by those to the other side of it.
+    /// In the input every spoke is a source edge without a chain: an inner edge is crossed by those
+    /// to the other side of it.
     #[test]
     fn an_inner_edge_is_as_far_as_the_spokes_that_cross_it() {
         let (surface, hole) = fan();
@@ -156,7 +165,7 @@ mod tests {
         let ratio = |over, under| Ratio { over, under };
         assert_eq!(ratio(1.0, 3.0).max(ratio(1.0, 2.0)).under, 2.0);
         assert_eq!(ratio(3.0, 4.0).max(ratio(1.0, 2.0)).under, 4.0);
-        // Parallel lines tell nothing.
+        // Parallel lines do not count.
         assert_eq!(ratio(0.0, 1.0).max(ratio(0.0, 0.0)).under, 1.0);
     }
 }

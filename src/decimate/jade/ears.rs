@@ -13,8 +13,9 @@ pub enum EarOrder {
 
 /// Cuts a simple, counter-clockwise polygon into `n - 2` triangles and appends them to `triangles`.
 ///
-/// `corners[i]` is the name under which corner `i` appears in the output; it is used up. Returns whether it succeeded:
-/// rounding can leave a polygon without an ear. O(n^3) at worst; n is a valence.
+/// `corners[i]` is the name under which corner `i` appears in the output; it is used up. Returns
+/// whether it succeeded: rounding can leave a polygon without an ear. O(n^3) at worst; n is a
+/// valence.
 pub fn cut_ears(
     corners: &mut Vec<u8>,
     point: impl Fn(u8) -> Point2,
@@ -47,7 +48,8 @@ fn find_ear(corners: &[u8], point: &impl Fn(u8) -> Point2, order: EarOrder) -> O
     }
 }
 
-/// Whether the corner is convex and no other corner lies in or on the triangle it makes with its neighbours.
+/// Whether the corner is convex and no other corner lies in or on the triangle it makes with its
+/// neighbours.
 fn is_ear(corners: &[u8], at: usize, point: &impl Fn(u8) -> Point2) -> bool {
     let ear = ear_at(corners, at);
     let [a, b, c] = ear.map(point);

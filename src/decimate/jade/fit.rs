@@ -1,9 +1,10 @@
-//! The filling that lies nearest to the input: the optimal triangulation, each triangle scored by the input vertices that
-//! it would cover and each edge inside by the input edges that would cross it.
+//! The filling that lies nearest to the input: the optimal triangulation, each triangle scored by
+//! the input vertices that it would cover and each edge inside by the input edges that would cross
+//! it.
 //!
-//! The paper triangulates first and flips edges afterwards. Where the bound is a true distance to the input, asking for
-//! the best filling outright costs little more, since each of the few possible triangles is scored once, and it needs
-//! a quarter fewer triangles at the same error.
+//! The paper triangulates first and flips edges afterwards. Where the bound is a true distance to
+//! the input, asking for the best filling outright costs little more, since each of the few
+//! possible triangles is scored once, and it needs a quarter fewer triangles at the same error.
 
 use super::classify::Class;
 use super::crossings::Crossings;
@@ -52,7 +53,8 @@ struct HolePart {
 /// Fills the hole by triangles that face the side of its star, keep the topology and lie nearest to
 /// the covered points that are sampled, and to the edges that cross from one triangle to another.
 /// Returns the largest of these distances, squared; above the limit a lower bound of it, without a
-/// filling. `None` if there is no such filling, or if the hole is too large or has no average plane.
+/// filling. `None` if there is no such filling, or if the hole is too large or has no average
+/// plane.
 pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling) -> Option<f64> {
     let Fitting { surface, certified, hole, class, limit_sq } = fitting;
     let up = hole.average_normal();
@@ -143,8 +145,8 @@ fn fill_parts(
     Some(worst[0].max(worst[1]))
 }
 
-/// Largest squared distance to a triangle among the points over it, or the first above `cutoff`; infinite where the
-/// triangle faces away or is too thin.
+/// Largest squared distance to a triangle among the points over it, or the first above `cutoff`;
+/// infinite where the triangle faces away or is too thin.
 fn largest_distance_sq(
     hole: &Hole,
     sampled: &mut SampledVertices,

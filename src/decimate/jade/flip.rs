@@ -1,7 +1,8 @@
 //! Edge flips that bring a filling nearer to the star it replaces (JADE, section 6).
 //!
-//! The composed criterion of the paper: an inner edge is flipped when the volume between filling and removed vertex
-//! falls, the sampled local error falls, and the aspect ratio gets no worse than a stated part below the star's.
+//! The composed criterion of the paper: an inner edge is flipped when the volume between filling
+//! and removed vertex falls, the sampled local error falls, and the aspect ratio gets no worse than
+//! a stated part below the star's.
 
 use super::validity::{aspect, faces, worst_star_aspect};
 use crate::bound::accumulated::Sampler;
@@ -9,7 +10,8 @@ use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{cross, dot, sub};
 use crate::mesh::{Filling, Hole, Surface};
 
-/// Flips inner edges while that helps. Each flip lowers the volume, so it ends; O(valence^2) flips at most.
+/// Flips inner edges while that helps. Each flip lowers the volume, so it ends; O(valence^2) flips
+/// at most.
 pub fn flip_edges(
     surface: &Surface,
     hole: &Hole,
@@ -66,7 +68,8 @@ fn flip(first: [u8; 3], second: [u8; 3]) -> Option<[[u8; 3]; 2]> {
     })
 }
 
-/// Whether the edge that a flip makes, between the first and last corner of its first triangle, is not in the mesh yet.
+/// Whether the edge that a flip makes, between the first and last corner of its first triangle, is
+/// not in the mesh yet.
 fn is_new_edge(surface: &Surface, hole: &Hole, [[a, _, d], _]: [[u8; 3]; 2]) -> bool {
     surface.n_faces(hole.ring[usize::from(a)], hole.ring[usize::from(d)]) == 0
 }

@@ -1,9 +1,10 @@
 //! The best triangulation of a hole, by dynamic programming over its polygon.
 //!
-//! The best fill of the corners `i..=j` joins the edge `i j` to some corner between and fills what is left on either
-//! side as well as can be (Klincsek, "Minimal triangulations of polygonal domains", *Annals of Discrete Mathematics* 9,
-//! 1980; there for the sum of edge lengths). Here a triangulation is as bad as its worst triangle, ties go to the
-//! smaller sum. A polygon of `n` corners has `n (n-1) (n-2) / 6` triangles, each scored once.
+//! The best fill of the corners `i..=j` joins the edge `i j` to some corner between and fills what
+//! is left on either side as well as can be (Klincsek, "Minimal triangulations of polygonal
+//! domains", *Annals of Discrete Mathematics* 9, 1980; there for the sum of edge lengths). Here a
+//! triangulation is as bad as its worst triangle, ties go to the smaller sum. A polygon of `n`
+//! corners has `n (n-1) (n-2) / 6` triangles, each scored once.
 
 use super::sampled_vertices::MAX_CORNERS;
 use crate::geometry::prepared::{larger, smaller};
@@ -53,7 +54,8 @@ impl EdgeScores {
     }
 }
 
-/// Triangulates the polygon `corners` with the least worst `score` and appends the triangles to `triangles`.
+/// Triangulates the polygon `corners` with the least worst `score` and appends the triangles to
+/// `triangles`.
 ///
 /// `score` gets a triangle and a cutoff above which any value will do. It gives infinity for a
 /// triangle that may not be used, and is never negative; each edge inside has a score too. Returns
@@ -70,8 +72,8 @@ pub fn triangulate_optimally(
     if !(3..=MAX_CORNERS).contains(&n) {
         return None;
     }
-    // Parts of two corners are edges, without a triangle: nothing at all. Longer parts are put
-    // together from shorter ones.
+    // A part of two corners is an edge and has no triangle. Longer parts are put together from
+    // shorter ones.
     let mut best = [[NOTHING; MAX_CORNERS]; MAX_CORNERS];
     let mut apex = [[0_usize; MAX_CORNERS]; MAX_CORNERS];
     for span in 2..n {

@@ -2,8 +2,8 @@
 
 use crate::bound::estimate::EstimateKind;
 
-/// Largest [`JadeOptions::k`], and least [`JadeOptions::c1`]: limits far below what coordinates can tell apart, or steps of next
-/// to nothing, would make iterations without number.
+/// Largest [`JadeOptions::k`], and least [`JadeOptions::c1`]: limits far below what coordinates can
+/// tell apart, or steps of next to nothing, would make iterations without number.
 pub const MAX_K: f64 = 1e12;
 /// See [`MAX_K`].
 pub const MIN_C1: f64 = 1.001;
@@ -14,21 +14,24 @@ pub enum Placement {
     /// Where the input has them.
     #[default]
     Original,
-    /// Where the error is least. Fewer triangles for an error, and a longer history: a vertex that moves is a new one.
+    /// Where the error is least. Fewer triangles for an error, and a longer history: a vertex that
+    /// moves is a new one.
     Best,
 }
 
 /// What the errors of a build by JADE mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JadeBound {
-    /// A proven bound on the two-sided Hausdorff distance to the input. Only the proof follows vertices that move.
+    /// A proven bound on the two-sided Hausdorff distance to the input. Only the proof follows
+    /// vertices that move.
     Certified(Placement),
     /// One of the paper's estimates.
     Estimate {
         /// Which one.
         kind: EstimateKind,
-        /// How much worse than in the star a flipped edge may make the aspect ratio, as a part of it (section 6). From 0 to 1.
-        /// Edges are flipped towards a smaller estimate; under the proof nothing is flipped.
+        /// How much worse than in the star a flipped edge may make the aspect ratio, as a part of
+        /// it (section 6). From 0 to 1. Edges are flipped towards a smaller estimate; under the
+        /// proof nothing is flipped.
         aspect_loss: f64,
     },
 }
@@ -46,13 +49,14 @@ pub enum JadeBound {
 pub struct JadeOptions {
     /// What the errors mean.
     pub bound: JadeBound,
-    /// The first limit on the local error is the largest one divided by this (section 5). From 1 to [`MAX_K`]; `None` for 256, or
-    /// for 240.5 where vertices move.
+    /// The first limit on the local error is the largest one divided by this (section 5). From 1 to
+    /// [`MAX_K`]; `None` for 256, or for 240.5 where vertices move.
     pub k: Option<f64>,
-    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`] to 16; `None` for 1.3, or for the tenth root of
-    /// 10 where vertices move.
+    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`] to 16; `None` for
+    /// 1.3, or for the tenth root of 10 where vertices move.
     pub c1: Option<f64>,
-    /// Limit on the global error as a multiple of that on the local error (section 5). From 1 to 16.
+    /// Limit on the global error as a multiple of that on the local error (section 5). From 1 to
+    /// 16.
     pub c2: f64,
 }
 
@@ -91,8 +95,9 @@ impl JadeOptions {
         }
     }
 
-    /// The value of `k`, given or not. For vertices that move the limits are ten to the decade and end just below the largest:
-    /// errors that people ask for, such as 0.1, 0.2 and 0.5 %, then find a level that has just been finished.
+    /// The value of `k`, given or not. For vertices that move the limits are ten to the decade and
+    /// end just below the largest: errors that people ask for, such as 0.1, 0.2 and 0.5 %, then
+    /// find a level that has just been finished.
     pub(crate) fn k_value(&self) -> f64 {
         self.k.unwrap_or(match self.placement() {
             Placement::Original => 256.0,

@@ -1,9 +1,10 @@
-//! Vertices that stay move to where the error is least, now and then between removals.
+//! Vertices that stay move to where the error is least, between removals.
 //!
-//! On a smooth surface the vertices of the input lie on one side of every coarser level, and half of its error is that
-//! offset. So whenever the mesh has become smaller by a good part, each vertex goes where the largest displacement of what
-//! is mapped onto its star is least; removals then find room under the same limit. No displacement grows, so the error of
-//! the mesh stays as proven. A vertex that moved is a new one in the history: its star dies and is born again. Vertices of the
+//! On a smooth surface the vertices of the input lie on one side of every coarser level, and half
+//! of its error is that offset. So whenever the mesh has become smaller by a good part, each vertex
+//! goes where the largest displacement of what is mapped onto its star is least; removals then find
+//! room under the same limit. No displacement grows, so the error of the mesh stays as proven. A
+//! vertex that moved is a new one in the history: its star dies and is born again. Vertices of the
 //! boundary and of seams stay where they are, and no vertex leaves the bounding box of the input.
 
 use super::best_place::best_place;
@@ -16,7 +17,8 @@ use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Hole;
 use rayon::prelude::*;
 
-/// Vertices move once the mesh has at most this part of the triangles that it had when they last did.
+/// Vertices move once the mesh has at most this part of the triangles that it had when they last
+/// did.
 const DUE: f64 = 0.9;
 
 /// A move must bring the largest displacement of its star down to this part.
@@ -25,15 +27,17 @@ const GAIN: f64 = 0.97;
 /// Squared cosine of the angle by which a triangle's normal may turn in one move.
 const TURN_COS_SQ: f64 = 0.75;
 
-/// Whether vertices may move at all, and the mesh is enough smaller than when they last did.
+/// Whether vertices may move and the mesh is enough smaller than when they last did.
 pub fn is_due(state: &State) -> bool {
     let n_triangles = state.surface.n_triangles() as f64;
     state.moves.as_ref().is_some_and(|moves| n_triangles <= DUE * moves.n_triangles_last as f64)
 }
 
-/// Moves each vertex of `open` that gains by it, as one step of the history, and returns those that moved.
+/// Moves each vertex of `open` that gains by it, as one step of the history, and returns those that
+/// moved.
 ///
-/// Vertices of one colour share no triangle: their places are found in parallel, whatever the number of threads.
+/// Vertices of one colour share no triangle: their places are found in parallel, whatever the
+/// number of threads.
 pub fn improve(state: &mut State, open: &[u32]) -> Vec<u32> {
     let mut moved = vec![];
     for of_colour in colours(state, open) {
@@ -95,7 +99,8 @@ fn place_of(state: &State, v: u32, scratch: &mut Scratch) -> Option<[f32; 3]> {
     (largest_sq <= GAIN * GAIN * start_sq).then_some(place)
 }
 
-/// Whether the star of `hole` still faces the same way and is well shaped with its vertex at `place`.
+/// Whether the star of `hole` still faces the same way and is well shaped with its vertex at
+/// `place`.
 fn keeps_shape(hole: &Hole, place: Vector) -> bool {
     let worst = WORST_ASPECT.min(worst_star_aspect(hole));
     (0..hole.slots.len()).all(|i| {

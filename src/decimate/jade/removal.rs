@@ -14,14 +14,15 @@ pub struct Plan {
     pub(super) filling: Filling,
     error: f64,
     change: Change,
-    /// The triangles of the star, as they are recorded: beside the change of the surface, which has others by then.
+    /// The triangles of the star, as they are recorded: beside the change of the surface, which has
+    /// others by then.
     dying: Vec<[u32; 3]>,
     /// Those of the filling, as they are recorded; none without seams.
     born_at_seams: Vec<[u32; 3]>,
 }
 
-/// Plans the removal of `v` under `limits`, or tells what it would need. The plan is in a box: it is
-/// long and most candidates have none.
+/// Plans the removal of `v` under `limits`, or returns what it would need. The plan is in a box: it
+/// is long and most candidates have none.
 pub fn plan(
     situation: Situation<'_>,
     v: u32,
@@ -82,10 +83,12 @@ fn ascending<const N: usize>(mut vertices: [u32; N]) -> [u32; N] {
     vertices
 }
 
-/// The vertices of the filling's triangles: at each ring point the one that the star has on the same side of the seam.
+/// The vertices of the filling's triangles: at each ring point the one that the star has on the
+/// same side of the seam.
 fn seam_vertices(surface: &Surface, seams: &Seams, hole: &Hole, filling: &Filling) -> Vec<[u32; 3]> {
     let corner = |t: usize, i: u8| {
-        // A part of the filling runs round from its start to its end, so only its start lies before its triangles.
+        // A part of the filling runs round from its start to its end, so only its start lies before
+        // its triangles.
         let (i, is_start) = (usize::from(i), i == filling.part_start(t));
         let slot = if is_start { hole.slot_after(i) } else { hole.slot_before(i) };
         seams.vertex(surface, slot, hole.ring[i])

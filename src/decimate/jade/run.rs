@@ -1,8 +1,9 @@
 //! The driver: iterations under rising limits, and in each of them rounds over an independent set.
 //!
-//! A heap would need the error of every neighbour again after every removal. Here what was last found of a vertex stands until
-//! its turn comes, however much its star has changed since: it only decides whose turn it is. The ceilings rise so finely that
-//! removals go nearly in the order of their errors all the same, and a vertex is judged as often as it is tried.
+//! A heap would need the error of every neighbour again after every removal. Here what was last
+//! found of a vertex stands until its turn comes, however much its star has changed since: it only
+//! decides whose turn it is. The ceilings rise so finely that removals go nearly in the order of
+//! their errors all the same, and a vertex is judged as often as it is tried.
 
 use super::batch::{Claims, Judged, carry_out, plan_all};
 use super::candidate::Refusal;

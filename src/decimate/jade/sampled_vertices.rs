@@ -36,8 +36,9 @@ pub struct SampledVertices {
 }
 
 impl SampledVertices {
-    /// Asks the `covered` source vertices about fillings of `hole`, whose average plane has the normal `up` that is not zero. At most
-    /// [`MAX_CORNERS`] corners. O(ring pairs) for each that is sampled.
+    /// Asks the `covered` source vertices about fillings of `hole`, whose average plane has the
+    /// normal `up` that is not zero. At most [`MAX_CORNERS`] corners. O(ring pairs) for each that
+    /// is sampled.
     pub fn gather(&mut self, surface: &Surface, hole: &Hole, up: Vector, covered: &[u32]) {
         let size = length_sq(up).sqrt();
         let (plane, unit) = (ProjectionPlane::new(scale(up, 1.0 / size)), 1.0 / size.sqrt());
@@ -50,7 +51,8 @@ impl SampledVertices {
         self.far = 0;
     }
 
-    /// Twice the area of a triangle of ring indices in the average plane, negative when it faces away.
+    /// Twice the area of a triangle of ring indices in the average plane, negative when it faces
+    /// away.
     pub fn flat_area(&self, triangle: [u8; 3]) -> f64 {
         let [a, b, c] = triangle.map(|i| self.ring[usize::from(i)]);
         turn(a, b, c)
@@ -106,7 +108,7 @@ impl SampledVertices {
     }
 }
 
-/// Parts points by each line of the ring, for as many at once as the processor can compare.
+/// Parts points by each line of the ring, as many at once as the processor can compare.
 #[multiversion(targets("x86_64+avx2"))]
 #[expect(clippy::cast_possible_truncation, reason = "near enough to choose a filling by")]
 fn part(flat: &[Vec<f32>; 2], ring: &[Point2], left: &mut Vec<Set>) {

@@ -4,13 +4,15 @@
 //! e*_l(j) = min(e*/k c1^j, e*)        e*_g(j) = min(c2 e*_l(j), e*)
 //! ```
 //!
-//! Low limits first keep the error of every intermediate mesh as low as can be, and so every level of the history
-//! good. With no error asked for, e* is a percent of the bounding diagonal for the start and then no limit at all.
+//! Low limits come first: they keep the error of every intermediate mesh, and so of every level,
+//! low. With no error asked for, e* is a percent of the bounding diagonal for the start and then no
+//! limit at all.
 
 use super::options::JadeOptions;
 use crate::bound::Limits;
 
-/// e* of the first limit when no error is asked for, as a part of the bounding diagonal: the coarsest of the paper's runs.
+/// e* of the first limit when no error is asked for, as a part of the bounding diagonal: the
+/// coarsest of the paper's runs.
 const START: f64 = 0.01;
 
 /// Ceilings per iteration; `docs/builder-roads.md` says what they are worth.
@@ -44,10 +46,11 @@ impl Thresholds {
         Limits { local: self.local, global: (self.c2 * self.local).min(self.target) }
     }
 
-    /// Ceilings that rise in equal factors to the global limit of this iteration, from that of the one before.
+    /// Ceilings that rise in equal factors to the global limit of this iteration, from that of the
+    /// one before.
     ///
-    /// What is below the limit and above the ceiling waits, without being judged again: candidates then go nearly in the order
-    /// of their errors, as if the limits rose that much more finely.
+    /// What is below the limit and above the ceiling waits, without being judged again: candidates
+    /// then go nearly in the order of their errors, as if the limits rose that much more finely.
     pub fn ceilings(&self) -> impl Iterator<Item = f64> + use<> {
         let (limit, c1) = (self.limits().global, self.c1);
         (1..=CEILINGS).map(move |part| limit * c1.powf(f64::from(part - CEILINGS) / f64::from(CEILINGS)))
@@ -58,8 +61,8 @@ impl Thresholds {
         self.local >= self.target
     }
 
-    /// Goes on to the first later iteration whose limits could admit a candidate that needs a local limit of
-    /// `needed`; `None` when there is no such iteration.
+    /// Goes on to the first later iteration whose limits could admit a candidate that needs a local
+    /// limit of `needed`; `None` when there is no such iteration.
     pub fn advance(&mut self, needed: f64) -> Option<Limits> {
         if self.is_last() || !needed.is_finite() || needed > self.target {
             return None;

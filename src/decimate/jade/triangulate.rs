@@ -1,8 +1,9 @@
-//! Filling a hole (JADE, section 6): the first of fourteen projections in which the border does not cross itself,
-//! the minimum angle triangulation there, plain ear cutting where that one is not valid in space, and then edge flips.
+//! Filling a hole (JADE, section 6): the first of fourteen projections in which the border does not
+//! cross itself, the minimum angle triangulation there, plain ear cutting where that one is not
+//! valid in space, and then edge flips.
 //!
-//! The hole of a vertex on a feature line is split along the new edge between the line's two ring vertices, and each
-//! part is filled on its own.
+//! The hole of a vertex on a feature line is split along the new edge between the line's two ring
+//! vertices, and each part is filled on its own.
 
 use super::classify::Class;
 use super::ears::{EarOrder, cut_ears};
@@ -88,7 +89,7 @@ pub(super) fn ring_index(i: usize) -> u8 {
     i as u8
 }
 
-/// Projects the part and tells whether its border is simple; mirrored where it would run clockwise.
+/// Projects the part, mirrored if it would run clockwise. Returns whether its border is simple.
 fn project_part(hole: &Hole, plane: &ProjectionPlane, part: &[u8], flat: &mut Vec<Point2>) -> bool {
     flat.clear();
     flat.extend(part.iter().map(|&i| plane.project(hole.points[usize::from(i)], hole.apex)));

@@ -9,7 +9,8 @@ pub const WORST_ASPECT: f64 = 0.02;
 /// Segments nearer than this, relative to the longer one, intersect.
 const TOUCHING: f64 = 1e-9;
 
-/// Shape of a triangle: 1 when equilateral, 0 when it has no area, `4 sqrt(3) area / sum of squared edges`.
+/// Shape of a triangle: 1 when equilateral, 0 when it has no area,
+/// `4 sqrt(3) area / sum of squared edges`.
 pub fn aspect(&[a, b, c]: &Triangle) -> f64 {
     let area = length_sq(cross(sub(b, a), sub(c, a))).sqrt();
     let edges_sq = distance_sq(a, b) + distance_sq(b, c) + distance_sq(c, a);
@@ -29,7 +30,8 @@ pub fn is_valid(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
         && !edges_meet(hole, filling)
 }
 
-/// Every triangle faces the same side as the star's average plane, so that their projections tile the hole.
+/// Every triangle faces the same side as the star's average plane, so that their projections tile
+/// the hole.
 fn is_inside(hole: &Hole, filling: &Filling) -> bool {
     let up = hole.average_normal();
     (0..filling.triangles.len()).all(|i| faces(&filling.triangle(hole, i), up))

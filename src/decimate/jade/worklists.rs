@@ -8,10 +8,11 @@ use rayon::prelude::*;
 
 /// What was last found of each vertex, and the lists of those to be tried.
 pub struct Candidates {
-    /// The local limit that would have admitted it, or less: 0 when nothing is known, infinite when it was impossible or the
-    /// vertex is gone.
+    /// The local limit that would have admitted it, or less: 0 when nothing is known, infinite when
+    /// it was impossible or the vertex is gone.
     needed: Vec<f32>,
-    /// The global error of its removal, or less where it was above the limit; 0 when nothing is known.
+    /// The global error of its removal, or less where it was above the limit; 0 when nothing is
+    /// known.
     found: Vec<f32>,
     /// Last round in which the vertex or a neighbour of it was picked.
     picked: Vec<u32>,
@@ -21,7 +22,8 @@ pub struct Candidates {
     open: Vec<u32>,
     /// Vertices below the limits of this iteration and above the ceiling, or left over below it.
     waiting: Waiting,
-    /// Vertices above the last limits whose star has changed since they were tried: no later iteration will try them again.
+    /// Vertices above the last limits whose star has changed since they were tried: no later
+    /// iteration will try them again.
     changed: Vec<u32>,
 }
 
@@ -52,7 +54,8 @@ impl Candidates {
         }
     }
 
-    /// Lets all wait that the limits may admit, each for the first of the rising `ceilings` that does. Drops vertices that are gone.
+    /// Lists every vertex that the limits may admit under the first of the rising `ceilings` that
+    /// admits it. Drops vertices that are gone.
     pub fn admit(&mut self, limits: Limits, ceilings: Vec<f64>, surface: &Surface) {
         let Self { needed, found, open, waiting, .. } = self;
         open.retain(|&v| !surface.star(v).is_empty());
@@ -81,7 +84,8 @@ impl Candidates {
         }
     }
 
-    /// Those above the last limits whose star changed since they were tried, with nothing known of them. In ascending order, each once.
+    /// Those above the last limits whose star changed since they were tried, with nothing known of
+    /// them. In ascending order, each once.
     pub fn take_changed(&mut self) -> Vec<u32> {
         let mut changed = std::mem::take(&mut self.changed);
         changed.par_sort_unstable();
@@ -91,7 +95,8 @@ impl Candidates {
         changed
     }
 
-    /// Takes those below the ceiling off those that wait, in ascending order: neighbours in it are neighbours on the surface.
+    /// Takes the vertices below the ceiling off their list, in ascending order: neighbours in it
+    /// are neighbours on the surface.
     pub fn take_below(&mut self, stage: Stage) -> Vec<u32> {
         let mut below = self.waiting.take(stage.step);
         self.retain_below(stage, &mut below);
@@ -100,12 +105,13 @@ impl Candidates {
         below
     }
 
-    /// Lets the vertices wait for the next ceiling.
+    /// Lists the vertices under the next ceiling.
     pub fn put_off(&mut self, stage: Stage, vertices: Vec<u32>) {
         self.waiting.add_all(stage.step + 1, vertices);
     }
 
-    /// Takes note that the stars of `touched` have changed; gives those that may be tried under these limits.
+    /// Records that the stars of `touched` have changed; returns those that may be tried under
+    /// these limits.
     pub fn touch(&mut self, Stage { limits, is_last, .. }: Stage, mut touched: Vec<u32>) -> Vec<u32> {
         touched.retain(|&v| {
             let needed = self.needed[v as usize];
@@ -121,7 +127,8 @@ impl Candidates {
         touched
     }
 
-    /// Those of the given vertices below the ceiling, each once: cheapest first, as far as is known, ties to the lower vertex.
+    /// The given vertices below the ceiling, each once, in the order of the errors last found; ties
+    /// go to the lower vertex.
     #[expect(clippy::cast_possible_truncation, reason = "the lower half of a key is the vertex")]
     pub fn sort_out(&mut self, stage: Stage, mut vertices: Vec<u32>) -> Vec<u32> {
         self.retain_below(stage, &mut vertices);
@@ -151,8 +158,9 @@ impl Candidates {
         self.round += 1;
     }
 
-    /// Picks the next vertices of the worklist, `n_most` at most and no two of the round neighbours, and takes them off it. Who comes
-    /// first is picked; those passed over go to `left`.
+    /// Picks the next vertices of the worklist, `n_most` at most and no two of the round
+    /// neighbours, and takes them off it. The first of two neighbours is picked; vertices passed
+    /// over go to `left`.
     pub fn pick(
         &mut self,
         surface: &Surface,
@@ -176,7 +184,7 @@ impl Candidates {
         batch
     }
 
-    /// Takes note of what a vertex needs.
+    /// Records what a vertex needs.
     pub fn set_refusal(&mut self, v: u32, refusal: Refusal, c2: f64) {
         let (needed, found) = match refusal {
             Refusal::Above(errors) => {
@@ -199,7 +207,8 @@ impl Candidates {
     }
 }
 
-/// Whether what a vertex needs is within the limits: what is impossible is not, even where they have no end.
+/// Whether what a vertex needs is within the limits. What is impossible is not, even without
+/// limits.
 fn is_admitted(needed: f32, limits: Limits) -> bool {
     needed.is_finite() && f64::from(needed) <= limits.local
 }
@@ -218,23 +227,24 @@ impl Waiting {
         Self { lists: vec![vec![]; ceilings.len()], ceilings }
     }
 
-    /// Lets `v` wait for the first ceiling that is no lower than `error`, if there is one: otherwise a later iteration will admit it.
+    /// Lists `v` under the first ceiling that is no lower than `error`. If there is none, a later
+    /// iteration will admit it.
     fn add(&mut self, v: u32, error: f32) {
-        // Counted, not searched: which one it is cannot be foreseen.
+        // Counted, not searched: a search would branch on what cannot be predicted.
         let step = self.ceilings.iter().filter(|&&ceiling| ceiling < f64::from(error)).count();
         if let Some(list) = self.lists.get_mut(step) {
             list.push(v);
         }
     }
 
-    /// Lets the vertices wait for one ceiling, if there is such a one.
+    /// Lists the vertices under one ceiling, if it exists.
     fn add_all(&mut self, step: usize, vertices: Vec<u32>) {
         if let Some(list) = self.lists.get_mut(step) {
             list.extend(vertices);
         }
     }
 
-    /// Takes those that wait for one ceiling.
+    /// Takes the list of one ceiling.
     fn take(&mut self, step: usize) -> Vec<u32> {
         self.lists.get_mut(step).map(std::mem::take).unwrap_or_default()
     }
