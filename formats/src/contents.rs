@@ -129,6 +129,8 @@ kinds! {
     Image = "image", "images";
     /// A named set of faces.
     Group = "group", "groups";
+    /// A set of elements that stands for a part of a model in Gmsh.
+    PhysicalGroup = "physical group", "physical groups";
     /// A named part of a file.
     Object = "object", "objects";
     /// A named solid of an STL file.

@@ -6,6 +6,10 @@ use std::path::PathBuf;
 
 use crate::MeshFormat;
 
+/// What a message lists for a file of no known format.
+const WHAT_IS_READ: &str = "meshes in PLY, OBJ, STL, OFF, glTF and GLB and volumes in VTU, PVTU, PVD, legacy VTK, \
+    Gmsh, MEDIT, MFEM, TetGen and PLOT3D are read";
+
 /// Why a mesh could not be read or written.
 ///
 /// Messages are one clause and name the place inside the file; [`MeshError::InFile`] puts the file's name before it.
@@ -31,9 +35,15 @@ pub enum MeshError {
     /// The system refused to read or write.
     #[error("{0}")]
     Io(#[from] io::Error),
-    /// Neither the contents nor the extension tell a mesh format.
-    #[error("no known mesh format (PLY, OBJ, STL, OFF, glTF and GLB are read)")]
+    /// Neither the contents nor the extension tell a format.
+    #[error("no known format ({WHAT_IS_READ})")]
     UnknownFormat,
+    /// The contents are of a well-known format that is not read.
+    #[error("the file is {name}, which is not read ({WHAT_IS_READ})")]
+    FormatNotRead {
+        /// What the format is called.
+        name: &'static str,
+    },
     /// A mesh was to be written to a file whose extension names no format that is written.
     #[error("no mesh format is written under the extension {extension:?} (ply, obj, stl, off and glb are)")]
     UnknownExtension {
@@ -46,9 +56,6 @@ pub enum MeshError {
         /// Vertices in the file.
         n_vertices: usize,
     },
-    /// Neither the contents nor the extension tell a volume format.
-    #[error("no known volume format (VTK, VTU, Gmsh, MEDIT, TetGen and PLOT3D are read)")]
-    UnknownVolumeFormat,
     /// A volume was to be written to a file whose extension names no format that is written.
     #[error("no volume format is written under the extension {extension:?} (vtu and vtk are)")]
     UnknownVolumeExtension {

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::input::read_input;
 use crate::publish::publish;
 use crate::text::{Scanner, Style};
-use crate::{FileReport, Kind, MeshError, TriangleMesh, gltf, obj, off, ply, stl};
+use crate::{FileReport, Kind, MeshError, TriangleMesh, foreign, gltf, obj, off, ply, stl};
 
 /// A mesh file format.
 ///
@@ -122,7 +122,14 @@ pub fn read_mesh(path: impl AsRef<Path>) -> Result<(TriangleMesh, FileReport), M
 fn read_file(path: &Path) -> Result<(TriangleMesh, FileReport), MeshError> {
     let bytes = read_input(path)?;
     let extension = MeshFormat::from_path(path);
-    let format = MeshFormat::detect(&bytes, extension).ok_or(MeshError::UnknownFormat)?;
+    let by_contents = MeshFormat::detect(&bytes, None);
+    if by_contents.is_none()
+        && extension != Some(MeshFormat::Stl)
+        && let Some(name) = foreign::name_of(&bytes)
+    {
+        return Err(MeshError::FormatNotRead { name });
+    }
+    let format = MeshFormat::detect(&bytes, extension).ok_or_else(|| foreign::unread(&bytes))?;
     let (mesh, mut report) = read_bytes(&bytes, format, path.parent())?;
     if let Some(extension) = extension.filter(|&extension| extension != format) {
         report.remark(format!("the extension says {extension}, the contents are {format}"));

@@ -6,6 +6,7 @@ mod coordinates;
 mod distinct;
 mod error;
 mod faces;
+mod foreign;
 mod format;
 mod gltf;
 mod input;

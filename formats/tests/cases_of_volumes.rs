@@ -73,6 +73,7 @@ fn what_is_not_needed_refuses_no_file() {
     check("string_field.vtk", 1296, 1.0, &["field data \"author\"", "field data \"TimeValue\""]);
     check("string_cells.vtu", 1296, 1.0, &["cell data \"material\""]);
     check("string_cells.vtk", 1296, 1.0, &["cell data \"material\""]);
+    check("hex_o3.msh", 162, 1.0, &["without a volume", "nodes on their edges"]);
     check("bool_points.vtk", 1296, 1.0, &["field data"]);
     let Some((mesh, _)) = read("bool_points.vtk") else { return };
     let flag = mesh.attribute("flag").unwrap();
@@ -86,6 +87,7 @@ fn what_is_not_needed_refuses_no_file() {
 #[test]
 fn data_at_cells_and_regions_are_named() {
     check("cell_data_only.vtu", 1296, 1.0, &["cell data \"p\"", "cell data \"U\""]);
+    check("phys_2.2.msh", 2491, 2.0, &["\"steel\"", "\"air\"", "\"core\""]);
     check("phys_refs.mesh", 2491, 2.0, &["element data \"references\""]);
     check("tg_attr.node", 384, 1.0, &["\"attributes of tetrahedra\""]);
     let Some((_, report)) = read("twomat.vtu") else { return };
@@ -128,7 +130,9 @@ fn formats_that_should_open_do() {
     check("p_ascii.p3d", 120, 24.0, &[]);
     check("p_multi.p3d", 6 * 36, 36.0, &[]);
     check("p_ascii_multi.x", 6 * 36, 36.0, &[]);
+    check("phys_1.msh", 2491, 2.0, &["physical"]);
     check("part.pvtu", 1296, 1.0, &[]);
+    check("mfem.mesh", 384, 1.0, &[]);
 }
 
 #[test]
@@ -151,7 +155,7 @@ fn a_series_whose_grid_changes_is_read_at_its_first_time() {
 
 #[test]
 fn known_files_that_are_not_read_are_named() {
-    let expected = [("poly.vtp", "PolyData"), ("image.vti", "ImageData")];
+    let expected = [("poly.vtp", "PolyData"), ("image.vti", "ImageData"), ("phys.inp", "Abaqus")];
     for (file, word) in expected {
         let Some(path) = case(file) else { return };
         let message = read_volume(path).unwrap_err().to_string();

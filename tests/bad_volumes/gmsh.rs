@@ -141,7 +141,7 @@ fn version_4() -> Cases {
         ),
         ("4-element-blocks-4-billion", edited(VERSION_4, "$Elements\n1 2", "$Elements\n4294967295 2")),
         ("4-elements-of-block-4-billion", edited(VERSION_4, "3 1 4 2\n", "3 1 4 4294967295\n")),
-        ("4-element-type-unknown", edited(VERSION_4, "3 1 4 2\n", "3 1 99 2\n")),
+        ("4-element-type-unknown", edited(VERSION_4, "3 1 4 2\n", "3 1 141 2\n")),
         ("4-element-node-unknown", edited(VERSION_4, "2 2 3 4 5\n", "2 2 3 4 6\n")),
         ("4-element-node-missing", edited(VERSION_4, "2 2 3 4 5\n", "2 2 3 4\n")),
     ]

@@ -171,7 +171,7 @@ fn version_2_contents() -> Cases {
         ("binary-2-corner-unknown", corner(6)),
         ("binary-2-corner-zero", corner(0)),
         ("binary-2-corner-repeated", corner(4)),
-        ("binary-2-type-unknown", of_type(99)),
+        ("binary-2-type-unknown", of_type(141)),
         ("binary-2-type-zero", of_type(0)),
         ("binary-2-type-negative", of_type(-4)),
         ("binary-2-type-of-56-nodes", of_type(31)),

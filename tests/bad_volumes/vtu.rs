@@ -46,7 +46,10 @@ fn documents() -> Cases {
         ("type-of-polygons", edited(TEXT, "\"UnstructuredGrid\" version", "\"PolyData\" version")),
         ("byte-order-unknown", edited(TEXT, "LittleEndian", "MiddleEndian")),
         ("header-type-unknown", edited(TEXT, "byte_order", "header_type=\"UInt128\" byte_order")),
-        ("compressor-unknown", edited(TEXT, "byte_order", "compressor=\"vtkLZMADataCompressor\" byte_order")),
+        (
+            "compressor-unknown",
+            edited(TEXT, "byte_order", "compressor=\"vtkBrotliDataCompressor\" byte_order"),
+        ),
         ("piece-missing", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>".into()),
         ("grid-missing", "<VTKFile type=\"UnstructuredGrid\"/>".into()),
         ("bom", [b"\xef\xbb\xbf", TEXT.as_bytes()].concat()),
@@ -270,9 +273,9 @@ fn compressed() -> Cases {
     let values: Vec<u8> =
         [1.0_f64, 2.0, 3.0, 4.0, 5.0].iter().flat_map(|value| value.to_le_bytes()).collect();
     let block = stored(&values);
-    let file = |table: &[u32], data: &[u8]| {
+    let by = |compressor: &str, table: &[u32], data: &[u8]| {
         let text = TEXT
-            .replace("byte_order", "compressor=\"vtkZLibDataCompressor\" byte_order")
+            .replace("byte_order", &format!("compressor=\"vtk{compressor}DataCompressor\" byte_order"))
             .replace("format=\"ascii\">1 2 3 4 5</DataArray>", "format=\"appended\" offset=\"0\"/>")
             .replace(
                 "</UnstructuredGrid></VTKFile>\n",
@@ -281,6 +284,8 @@ fn compressed() -> Cases {
         let table: Vec<u8> = table.iter().flat_map(|word| word.to_le_bytes()).collect();
         [text.as_bytes(), &table, data, b"</AppendedData></VTKFile>"].concat()
     };
+    let file = |table: &[u32], data: &[u8]| by("ZLib", table, data);
+    let lz4 = [&[0xF0, 25][..], &values].concat();
     let n_bytes = block.len() as u32;
     let mut damaged = block.clone();
     *damaged.last_mut().unwrap() ^= 1;
@@ -297,8 +302,28 @@ fn compressed() -> Cases {
         ("zlib-last-block-of-other-length", file(&[1, 8, 40, n_bytes], &block)),
         ("zlib-compressed-length-giant", file(&[1, 40, 0, u32::MAX], &block)),
         ("zlib-compressed-length-zero", file(&[1, 40, 0, 0], &block)),
+        ("lz4-whole", by("LZ4", &[1, 40, 0, 42], &lz4)),
+        ("lz4-cut", by("LZ4", &[1, 40, 0, 41], &lz4)),
+        ("lz4-claims-less", by("LZ4", &[1, 32, 0, 42], &lz4)),
+        ("lz4-claims-4-gib", by("LZ4", &[1, u32::MAX, 0, 42], &lz4)),
+        ("lz4-match-before-the-start", by("LZ4", &[1, 40, 0, 4], &[0x1F, 7, 9, 0])),
+        ("lzma-whole", by("LZMA", &[1, 40, 0, 76], &XZ)),
+        ("lzma-cut", by("LZMA", &[1, 40, 0, 40], &XZ)),
+        ("lzma-claims-less", by("LZMA", &[1, 32, 0, 76], &XZ)),
+        ("lzma-claims-4-gib", by("LZMA", &[1, u32::MAX, 0, 76], &XZ)),
+        ("lzma-dictionary-of-4-gib", by("LZMA", &[1, 40, 0, 76], &[&XZ[..16], &[40], &XZ[17..]].concat())),
+        ("lzma-garbage", by("LZMA", &[1, 40, 0, 76], &[0x55; 76])),
     ]
 }
+
+/// The values at points as `xz` compresses them.
+const XZ: [u8; 76] = [
+    0xFD, 0x37, 0x7A, 0x58, 0x5A, 0x00, 0x00, 0x01, 0x69, 0x22, 0xDE, 0x36, 0x02, 0x00, 0x21, 0x01, 0x16,
+    0x00, 0x00, 0x00, 0x74, 0x2F, 0xE5, 0xA3, 0xE0, 0x00, 0x27, 0x00, 0x14, 0x5D, 0x00, 0x00, 0x69, 0xBA,
+    0x60, 0xEF, 0xED, 0x9D, 0xF1, 0x1F, 0x71, 0xAC, 0x8F, 0x16, 0xDD, 0x49, 0xEE, 0x74, 0x11, 0x00, 0x00,
+    0x00, 0x3D, 0x8F, 0x4F, 0xEA, 0x00, 0x01, 0x2C, 0x28, 0x7F, 0x76, 0x02, 0x2C, 0x90, 0x42, 0x99, 0x0D,
+    0x01, 0x00, 0x00, 0x00, 0x00, 0x01, 0x59, 0x5A,
+];
 
 /// A zlib stream of one stored block (RFC 1950, RFC 1951).
 fn stored(bytes: &[u8]) -> Vec<u8> {

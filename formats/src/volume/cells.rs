@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::coning::{HEXAHEDRON, PRISM, PYRAMID, VOXEL, cone};
+use super::coning::{HEXAHEDRON, PRISM, PYRAMID, UPRIGHT_PRISM, VOXEL, cone};
 use crate::FileReport;
 use crate::error::{MeshError, Place};
 
@@ -14,7 +14,10 @@ pub(super) enum CellKind {
     Tetrahedron,
     Hexahedron,
     Voxel,
+    /// As VTK has it: its first triangle is seen counter-clockwise from outside.
     Prism,
+    /// As all others have it: its first triangle is seen counter-clockwise from inside.
+    UprightPrism,
     Pyramid,
 }
 
@@ -25,7 +28,7 @@ impl CellKind {
             Self::Flat => 0,
             Self::Tetrahedron => 4,
             Self::Pyramid => 5,
-            Self::Prism => 6,
+            Self::Prism | Self::UprightPrism => 6,
             Self::Hexahedron | Self::Voxel => 8,
         }
     }
@@ -107,6 +110,7 @@ impl Cells {
                 CellKind::Hexahedron => &HEXAHEDRON,
                 CellKind::Voxel => &VOXEL,
                 CellKind::Prism => &PRISM,
+                CellKind::UprightPrism => &UPRIGHT_PRISM,
                 CellKind::Pyramid => &PYRAMID,
                 CellKind::Tetrahedron | CellKind::Flat => {
                     tetrahedra.extend(corners.first_chunk::<4>());

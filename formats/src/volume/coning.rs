@@ -18,6 +18,9 @@ pub(super) const VOXEL: [&[usize]; 6] =
     [&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[1, 3, 7, 5], &[3, 2, 6, 7], &[2, 0, 4, 6]];
 /// Faces of a prism over the triangle 0 1 2, with VTK's orientation: that triangle is seen counter-clockwise from outside.
 pub(super) const PRISM: [&[usize]; 5] = [&[0, 1, 2], &[3, 5, 4], &[0, 3, 4, 1], &[1, 4, 5, 2], &[2, 5, 3, 0]];
+/// Faces of a prism over the triangle 0 1 2, which is seen counter-clockwise from inside.
+pub(super) const UPRIGHT_PRISM: [&[usize]; 5] =
+    [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
 /// Faces of a pyramid over the quadrilateral 0 1 2 3 with the apex 4.
 pub(super) const PYRAMID: [&[usize]; 5] = [&[0, 3, 2, 1], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]];
 
@@ -91,6 +94,8 @@ mod tests {
         check(&VOXEL, &voxel, 6, 1.0);
         let prism = [0, 2, 1, 4, 6, 5].map(|i: usize| CUBE[i]);
         check(&PRISM, &prism, 3, 0.5);
+        let upright = [0, 1, 2, 4, 5, 6].map(|i: usize| CUBE[i]);
+        check(&UPRIGHT_PRISM, &upright, 3, 0.5);
         let pyramid = [CUBE[0], CUBE[1], CUBE[2], CUBE[3], [0.5, 0.5, 1.0]];
         check(&PYRAMID, &pyramid, 2, 1.0 / 3.0);
     }

@@ -6,11 +6,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{gmsh, medit, meshb, plot3d, tetgen, vtk, vtu};
+use super::{gmsh, medit, meshb, mfem, plot3d, tetgen, vtk, vtu};
 use crate::error::Place;
 use crate::input::read_input;
 use crate::publish::publish;
-use crate::{FileReport, Kind, MeshError, TetrahedronMesh};
+use crate::{FileReport, Kind, MeshError, TetrahedronMesh, foreign};
 
 /// A volume file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -22,10 +22,12 @@ pub enum VolumeFormat {
     Vtu,
     /// Legacy VTK, text or binary.
     Vtk,
-    /// Gmsh 2.2 and 4.1, text or binary.
+    /// Gmsh 1, 2.2 and 4.1, text or binary.
     Gmsh,
     /// MEDIT, text or binary.
     Medit,
+    /// MFEM meshes, text; also under the extension `mesh`.
+    Mfem,
     /// TetGen: a `.node` and an `.ele` file of one name.
     Tetgen,
     /// PLOT3D: a curvilinear grid, with solutions in files of their own.
@@ -34,7 +36,8 @@ pub enum VolumeFormat {
 
 impl VolumeFormat {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Vtu, Self::Vtk, Self::Gmsh, Self::Medit, Self::Tetgen, Self::Plot3d];
+    pub const ALL: [Self; 7] =
+        [Self::Vtu, Self::Vtk, Self::Gmsh, Self::Medit, Self::Mfem, Self::Tetgen, Self::Plot3d];
 
     /// The file extensions, in lower case and without the dot; the first is the one written.
     pub fn extensions(self) -> &'static [&'static str] {
@@ -43,6 +46,7 @@ impl VolumeFormat {
             Self::Vtk => &["vtk"],
             Self::Gmsh => &["msh"],
             Self::Medit => &["mesh", "meshb"],
+            Self::Mfem => &["mfem"],
             Self::Tetgen => &["ele", "node"],
             Self::Plot3d => &["p3d", "x", "bin"],
         }
@@ -61,10 +65,13 @@ impl VolumeFormat {
             return Some(Self::Vtk);
         }
         let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
-        if text.starts_with(b"$MeshFormat") {
+        if text.starts_with(b"$MeshFormat") || text.starts_with(b"$NOD") {
             return Some(Self::Gmsh);
         }
-        if text.starts_with(b"MeshVersionFormatted") {
+        if text.starts_with(mfem::MAGIC) {
+            return Some(Self::Mfem);
+        }
+        if is_medit(text) {
             return Some(Self::Medit);
         }
         if text.starts_with(b"<VTKFile") || (text.starts_with(b"<?xml") && extension.is_none()) {
@@ -82,6 +89,12 @@ impl VolumeFormat {
     }
 }
 
+/// Whether text begins as MEDIT does, in any case.
+fn is_medit(text: &[u8]) -> bool {
+    const KEYWORD: &[u8] = b"MeshVersionFormatted";
+    text.get(..KEYWORD.len()).is_some_and(|start| start.eq_ignore_ascii_case(KEYWORD))
+}
+
 impl fmt::Display for VolumeFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -89,6 +102,7 @@ impl fmt::Display for VolumeFormat {
             Self::Vtk => "legacy VTK",
             Self::Gmsh => "Gmsh",
             Self::Medit => "MEDIT",
+            Self::Mfem => "MFEM",
             Self::Tetgen => "TetGen",
             Self::Plot3d => "PLOT3D",
         })
@@ -107,8 +121,11 @@ pub fn read_volume(path: impl AsRef<Path>) -> Result<(TetrahedronMesh, FileRepor
     let path = path.as_ref();
     let read = || {
         let bytes = read_input(path)?;
-        let format = VolumeFormat::detect(&bytes, VolumeFormat::from_path(path))
-            .ok_or(MeshError::UnknownVolumeFormat)?;
+        if let Some(name) = foreign::name_of(&bytes) {
+            return Err(MeshError::FormatNotRead { name });
+        }
+        let format =
+            VolumeFormat::detect(&bytes, VolumeFormat::from_path(path)).ok_or(MeshError::UnknownFormat)?;
         if format == VolumeFormat::Vtu {
             return vtu::read(&bytes, path.parent());
         }
@@ -138,6 +155,7 @@ pub fn read_volume_bytes(
         VolumeFormat::Gmsh => gmsh::read(bytes),
         VolumeFormat::Medit if meshb::is_meshb(bytes) => meshb::read(bytes),
         VolumeFormat::Medit => medit::read(bytes),
+        VolumeFormat::Mfem => mfem::read(bytes),
         VolumeFormat::Plot3d => plot3d::read(bytes, &[]),
         VolumeFormat::Tetgen => {
             let feature = "TetGen in less than two files".to_owned();
@@ -197,7 +215,11 @@ pub fn write_volume_to(
     match format {
         VolumeFormat::Vtu => vtu::write(mesh, out, &mut report)?,
         VolumeFormat::Vtk => vtk::write(mesh, out, &mut report)?,
-        VolumeFormat::Gmsh | VolumeFormat::Medit | VolumeFormat::Tetgen | VolumeFormat::Plot3d => {
+        VolumeFormat::Gmsh
+        | VolumeFormat::Medit
+        | VolumeFormat::Mfem
+        | VolumeFormat::Tetgen
+        | VolumeFormat::Plot3d => {
             return Err(MeshError::UnknownVolumeExtension { extension: format.extensions()[0].into() });
         }
     }

@@ -6,6 +6,8 @@
 //! Reference: P. Frey: "MEDIT: an interactive mesh visualization software" (INRIA RT-0253, 2001),
 //! appendix; sections of a higher order: L. Maréchal: "The LibMeshb library" (INRIA, 2018).
 
+use std::collections::BTreeSet;
+
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::words::{count, integer, point};
@@ -25,7 +27,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
         report: FileReport::new(VolumeFormat::Medit),
         points: Vec::new(),
         elements: Vec::new(),
-        has_references: false,
+        references: [BTreeSet::new(), BTreeSet::new()],
     };
     let mut keyword = reader.scanner.word();
     while let Some(word) = keyword {
@@ -46,12 +48,20 @@ struct Element {
     place: Place,
 }
 
+/// What has a reference.
+#[derive(Clone, Copy)]
+enum Referring {
+    Vertex,
+    Solid,
+}
+
 struct Reader<'a> {
     scanner: Scanner<'a>,
     report: FileReport,
     points: Vec<[f64; 3]>,
     elements: Vec<Element>,
-    has_references: bool,
+    /// References of vertices, and of solids.
+    references: [BTreeSet<i64>; 2],
 }
 
 impl<'a> Reader<'a> {
@@ -75,7 +85,7 @@ impl<'a> Reader<'a> {
             b"vertices" => {
                 for _ in 0..count(&mut self.scanner, "vertices")? {
                     self.points.push(point(&mut self.scanner)?);
-                    self.reference()?;
+                    self.reference(Referring::Vertex)?;
                 }
             }
             _ => return self.left_out(lower, keyword),
@@ -91,8 +101,8 @@ impl<'a> Reader<'a> {
         Err(MeshError::Unsupported { place: self.scanner.place(), feature })
     }
 
-    fn reference(&mut self) -> Result<(), MeshError> {
-        self.has_references |= integer(&mut self.scanner)? != 0;
+    fn reference(&mut self, of: Referring) -> Result<(), MeshError> {
+        self.references[of as usize].insert(integer(&mut self.scanner)?);
         Ok(())
     }
 
@@ -113,7 +123,7 @@ impl<'a> Reader<'a> {
                     *corner = from_zero;
                 }
             }
-            self.reference()?;
+            self.reference(Referring::Solid)?;
             let has_more_nodes = n_nodes > kind.n_corners();
             self.elements.push(Element { kind, has_more_nodes, corners, place: self.scanner.place() });
         }
@@ -143,8 +153,12 @@ impl<'a> Reader<'a> {
     }
 
     fn finish(mut self) -> Result<(TetrahedronMesh, FileReport), MeshError> {
-        if self.has_references {
-            self.report.found(Kind::References, "references");
+        for (references, name) in self.references.iter().zip(["references of vertices", "references"]) {
+            // 0 stands for none.
+            if references.iter().any(|&reference| reference != 0) {
+                let id = self.report.found(Kind::References, name);
+                self.report.grow(id, references.len() as u64, "values");
+            }
         }
         let mut cells = Cells::default();
         for Element { kind, has_more_nodes, corners, place } in self.elements {
@@ -183,10 +197,10 @@ fn solid(keyword: &[u8]) -> Option<(CellKind, usize)> {
         b"hexahedraq2" => (CellKind::Hexahedron, 27),
         b"hexahedraq3" => (CellKind::Hexahedron, 64),
         b"hexahedraq4" => (CellKind::Hexahedron, 125),
-        b"prisms" | b"pentahedra" => (CellKind::Prism, 6),
-        b"prismsp2" => (CellKind::Prism, 18),
-        b"prismsp3" => (CellKind::Prism, 40),
-        b"prismsp4" => (CellKind::Prism, 75),
+        b"prisms" | b"pentahedra" => (CellKind::UprightPrism, 6),
+        b"prismsp2" => (CellKind::UprightPrism, 18),
+        b"prismsp3" => (CellKind::UprightPrism, 40),
+        b"prismsp4" => (CellKind::UprightPrism, 75),
         b"pyramids" => (CellKind::Pyramid, 5),
         b"pyramidsp2" => (CellKind::Pyramid, 14),
         b"pyramidsp3" => (CellKind::Pyramid, 30),

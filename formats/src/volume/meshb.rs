@@ -5,6 +5,8 @@
 //!
 //! Reference: L. Maréchal: "The LibMeshb library" (INRIA, 2018), "Binary file format".
 
+use std::collections::BTreeSet;
+
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::scalars::{NumberType, Numbers};
@@ -35,7 +37,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
     reader.version = reader.unsigned(4)?;
     let mut report = FileReport::new(VolumeFormat::Medit);
     let mut points = Numbers { number: reader.real(), bytes: Vec::new() };
-    let mut elements: Vec<(CellKind, usize, usize)> = Vec::new();
+    let mut elements: Vec<List> = Vec::new();
     // Offsets only ever lead forward, so that the file is passed over once.
     loop {
         let keyword = reader.unsigned(4)?;
@@ -50,16 +52,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
                 points.bytes.clear();
                 reader.vertices(n, &mut points, &mut report)?;
             }
-            5..=7 => report.n_cells_ignored += reader.count(1)?,
-            _ => {
-                if let Some(kind) = solid(keyword) {
-                    let size_bytes = (kind.n_corners() + 1) * reader.integer_bytes();
+            5..=7 | 24 | 25 | 27 => report.n_cells_ignored += reader.count(1)?,
+            _ => match solid(keyword) {
+                Some((kind, n_nodes)) => {
+                    let size_bytes = (n_nodes + 1) * reader.integer_bytes();
                     let n = reader.count(size_bytes)?;
-                    elements.push((kind, n, reader.at));
+                    elements.push(List { kind, n_nodes, n, at: reader.at });
                     // No element is in two lists: few bytes would make many.
                     reader.at += n * size_bytes;
                 }
-            }
+                None => drop(report.named(Kind::Section, &name_of(keyword))),
+            },
         }
         match next {
             0 => break,
@@ -71,10 +74,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
     }
     let n_points = points.len() / 3;
     let mut cells = Cells::default();
-    for (kind, n, at) in elements {
-        reader.at = at;
-        reader.elements(kind, n, n_points, (&mut cells, &mut report))?;
+    let mut references = BTreeSet::new();
+    for list in elements {
+        references.extend(reader.elements(&list, n_points, (&mut cells, &mut report))?);
     }
+    name_references("references", &references, &mut report);
     finish(Points::new(&points, false), cells, Fields::default(), report)
 }
 
@@ -82,15 +86,54 @@ const DIMENSION: usize = 3;
 const VERTICES: usize = 4;
 const END: usize = 54;
 
-/// The solid that a keyword lists.
-fn solid(keyword: usize) -> Option<CellKind> {
+/// The solid that a keyword lists, and the number of its nodes.
+fn solid(keyword: usize) -> Option<(CellKind, usize)> {
     match keyword {
-        8 => Some(CellKind::Tetrahedron),
-        9 => Some(CellKind::Prism),
-        10 => Some(CellKind::Hexahedron),
-        49 => Some(CellKind::Pyramid),
+        8 => Some((CellKind::Tetrahedron, 4)),
+        9 => Some((CellKind::UprightPrism, 6)),
+        10 => Some((CellKind::Hexahedron, 8)),
+        30 => Some((CellKind::Tetrahedron, 10)),
+        33 => Some((CellKind::Hexahedron, 27)),
+        49 => Some((CellKind::Pyramid, 5)),
         _ => None,
     }
+}
+
+/// What a keyword is called in text files, or its number.
+fn name_of(keyword: usize) -> String {
+    let name = match keyword {
+        11 => "AngleOfCornerBound",
+        13 => "Corners",
+        14 => "Ridges",
+        15 => "RequiredVertices",
+        16 => "RequiredEdges",
+        17 => "RequiredTriangles",
+        18 => "RequiredQuadrilaterals",
+        20 => "NormalAtVertices",
+        59 => "Tangents",
+        60 => "Normals",
+        61 => "TangentAtVertices",
+        62 => "SolAtVertices",
+        _ => return format!("keyword {keyword}"),
+    };
+    name.to_owned()
+}
+
+/// Reports references, of which 0 stands for none.
+fn name_references(name: &str, references: &BTreeSet<usize>, report: &mut FileReport) {
+    if references.iter().any(|&reference| reference != 0) {
+        let id = report.found(Kind::References, name);
+        report.grow(id, references.len() as u64, "values");
+    }
+}
+
+/// A list of solids of one kind.
+struct List {
+    kind: CellKind,
+    n_nodes: usize,
+    n: usize,
+    /// Where it begins.
+    at: usize,
 }
 
 struct Reader<'a> {
@@ -170,33 +213,31 @@ impl Reader<'_> {
     /// Coordinates of `n` vertices, whose bytes the file has.
     fn vertices(&mut self, n: usize, points: &mut Numbers, report: &mut FileReport) -> Result<(), MeshError> {
         let size_bytes = 3 * points.number.size_bytes();
-        let mut has_references = false;
+        let mut references = BTreeSet::new();
         for _ in 0..n {
             let coordinates = &self.bytes[self.at..self.at + size_bytes];
             points.bytes.extend(Numbers::from_bytes(points.number, coordinates, self.is_big_endian).bytes);
             self.at += size_bytes;
-            has_references |= self.integer()? != 0;
+            references.insert(self.integer()?);
         }
-        if has_references {
-            report.found(Kind::References, "references of vertices");
-        }
+        name_references("references of vertices", &references, report);
         Ok(())
     }
 
     fn elements(
         &mut self,
-        kind: CellKind,
-        n: usize,
+        &List { kind, n_nodes, n, at }: &List,
         n_points: usize,
         (cells, report): (&mut Cells, &mut FileReport),
-    ) -> Result<(), MeshError> {
-        let mut has_references = false;
+    ) -> Result<BTreeSet<usize>, MeshError> {
+        let mut references = BTreeSet::new();
+        self.at = at;
         for element in 0..n {
-            let mut corners = [0; 8];
-            for corner in corners.iter_mut().take(kind.n_corners()) {
+            let mut nodes = [0; 27];
+            for node in &mut nodes[..n_nodes] {
                 let index = self.integer()?;
                 let from_zero = index.checked_sub(1).filter(|&index| index < n_points);
-                *corner = from_zero.and_then(|index| u32::try_from(index).ok()).ok_or_else(|| {
+                *node = from_zero.and_then(|index| u32::try_from(index).ok()).ok_or_else(|| {
                     MeshError::IndexOutOfRange {
                         place: Place::item("element", element),
                         what: "vertex",
@@ -205,14 +246,10 @@ impl Reader<'_> {
                     }
                 })?;
             }
-            has_references |= self.integer()? != 0;
-            let corners = &corners[..kind.n_corners()];
-            cells.push(kind, corners, n_points, Place::item("element", element), report)?;
+            references.insert(self.integer()?);
+            cells.push(kind, &nodes[..n_nodes], n_points, Place::item("element", element), report)?;
         }
-        if has_references {
-            report.named(Kind::References, "references");
-        }
-        Ok(())
+        Ok(references)
     }
 }
 

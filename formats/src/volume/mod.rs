@@ -7,6 +7,7 @@ mod ghosts;
 mod gmsh;
 mod medit;
 mod meshb;
+mod mfem;
 mod pending;
 mod plot3d;
 mod scalars;

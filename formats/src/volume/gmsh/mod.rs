@@ -1,23 +1,26 @@
-//! Gmsh files (`.msh`), text and binary, versions 2.2 and 4.1.
+//! Gmsh files (`.msh`), text and binary, versions 1, 2.2 and 4.1.
 //!
-//! Both encodings have the same numbers in the same order, but for the elements of version 2: in text each says its own type
-//! and tags, in binary many of one type follow each other.
+//! Both encodings have the same numbers in the same order, but for the elements of version 2: in text each
+//! says its own type and tags, in binary many of one type follow each other. Version 1 is text.
 //!
 //! Reference: C. Geuzaine, J.-F. Remacle: Gmsh reference manual, "MSH file format".
 
 mod element;
+mod groups;
 mod source;
+mod values;
 
 use super::cells::{CellKind, Cells};
-use super::pending::{Fields, Points, finish, wrong_length};
-use super::scalars::{NumberType, Numbers};
+use super::pending::{Fields, Points, finish};
 use super::words::Names;
 use crate::error::MeshError;
-use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
+use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 use element::ElementType;
+use groups::Groups;
 use source::Source;
 
-/// Reads a Gmsh file. Tags of elements are left out; values at nodes are fields, each time step one of its own.
+/// Reads a Gmsh file. Values at nodes are fields, each time step one of its own; groups of elements and
+/// values at elements are left out and reported.
 ///
 /// # Errors
 ///
@@ -31,10 +34,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
         points: Vec::new(),
         cells: Cells::default(),
         fields: Fields::default(),
+        groups: Groups::default(),
     };
     while let Some(word) = reader.source.word() {
         reader.section(word)?;
     }
+    reader.groups.report(&mut reader.report);
     let points = reader.points;
     let points = if reader.source.is_text() { Points::Text(points) } else { Points::F64(points) };
     finish(points, reader.cells, reader.fields, reader.report)
@@ -48,6 +53,7 @@ struct Reader<'a> {
     points: Vec<[f64; 3]>,
     cells: Cells,
     fields: Fields,
+    groups: Groups,
 }
 
 /// Bytes of a whole number and of a coordinate in binary.
@@ -59,12 +65,15 @@ impl Reader<'_> {
         match word {
             b"$MeshFormat" => self.format()?,
             b"$Nodes" if self.is_version_4 => self.nodes_4()?,
-            b"$Nodes" => self.nodes_2()?,
+            b"$Nodes" | b"$NOD" => self.nodes_2()?,
             b"$Elements" if self.is_version_4 => self.elements_4()?,
             b"$Elements" => self.elements_2()?,
+            b"$ELM" => self.elements_1()?,
             b"$NodeData" => self.node_data()?,
-            _ if word.starts_with(b"$") && !word.starts_with(b"$End") => self.skip(word),
-            _ if word.starts_with(b"$End") => {}
+            b"$PhysicalNames" => self.groups(word),
+            b"$Entities" if self.is_version_4 => self.groups(word),
+            _ if word.starts_with(b"$End") || word.starts_with(b"$END") => {}
+            _ if word.starts_with(b"$") => self.skip(word),
             _ => return Err(self.source.unexpected("a section of a Gmsh file", Some(word))),
         }
         Ok(())
@@ -128,18 +137,31 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// Elements of version 1: number, type, group, entity, number of nodes, nodes.
+    fn elements_1(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.source.text_count("elements")? {
+            self.source.int()?;
+            let element = self.element_type()?;
+            let tags = [self.source.int()?, self.source.int()?];
+            self.groups.add_tagged(element.n_dimensions, &tags);
+            self.source.int()?;
+            self.element(element)?;
+        }
+        Ok(())
+    }
+
     fn elements_2(&mut self) -> Result<(), MeshError> {
         let mut n_left = self.source.text_count("elements")?;
         self.source.begin_numbers();
         while n_left > 0 {
             // In text an element says its number first, in binary a block says how many elements it has.
-            let (kind, n) = if self.source.is_text() {
+            let (element, n) = if self.source.is_text() {
                 self.source.int()?;
                 (self.element_type()?, 1)
             } else {
-                let kind = self.element_type()?;
+                let element = self.element_type()?;
                 let n = self.source.int()?;
-                (kind, self.source.checked(n, INT_BYTES, "elements")?)
+                (element, self.source.checked(n, INT_BYTES, "elements")?)
             };
             let n_tags = self.source.int()?;
             let n_tags = self.source.checked(n_tags, 2, "tags")?;
@@ -154,8 +176,15 @@ impl Reader<'_> {
                 if !self.source.is_text() {
                     self.source.int()?;
                 }
-                (0..n_tags).try_for_each(|_| self.source.int().map(drop))?;
-                self.element(kind)?;
+                let mut tags = [0; 3];
+                for tag in 0..n_tags {
+                    let value = self.source.int()?;
+                    if let Some(known) = tags.get_mut(tag) {
+                        *known = value;
+                    }
+                }
+                self.groups.add_tagged(element.n_dimensions, &tags[..n_tags.min(3)]);
+                self.element(element)?;
             }
             n_left -= n;
         }
@@ -164,12 +193,15 @@ impl Reader<'_> {
 
     fn elements_4(&mut self) -> Result<(), MeshError> {
         for _ in 0..self.begin_blocks()? {
-            (0..2).try_for_each(|_| self.source.int().map(drop))?;
-            let kind = self.element_type()?;
-            for _ in 0..self.source.count(2 * INT_BYTES, "elements")? {
+            self.source.int()?;
+            let entity = self.source.int()?;
+            let element = self.element_type()?;
+            let n = self.source.count(2 * INT_BYTES, "elements")?;
+            for _ in 0..n {
                 self.source.size()?;
-                self.element(kind)?;
+                self.element(element)?;
             }
+            self.groups.add_of_entity(element.n_dimensions, entity, n as u64);
         }
         Ok(())
     }
@@ -181,17 +213,20 @@ impl Reader<'_> {
 
     fn element(&mut self, element: ElementType) -> Result<(), MeshError> {
         let place = self.source.place();
-        let mut nodes = [0; 64];
-        let mut n = 0;
+        // More nodes than corners tell that the element is of a higher order.
+        let mut nodes = [0; 9];
         let mut n_read = 0;
         while let Some(name) = self.node_name(element, n_read)? {
-            n_read += 1;
-            if element.kind != CellKind::Flat && n < nodes.len() {
-                nodes[n] = self.names.find(name, place)?;
-                n += 1;
+            if element.kind != CellKind::Flat {
+                let node = self.names.find(name, place)?;
+                if let Some(place) = nodes.get_mut(n_read) {
+                    *place = node;
+                }
             }
+            n_read += 1;
         }
-        self.cells.push(element.kind, &nodes[..n], self.names.len(), place, &mut self.report)
+        let nodes = &nodes[..n_read.min(nodes.len())];
+        self.cells.push(element.kind, nodes, self.names.len(), place, &mut self.report)
     }
 
     /// The next node of an element: in text up to the end of its line, in binary as many as its type has.
@@ -206,65 +241,32 @@ impl Reader<'_> {
         name.map(Some)
     }
 
-    /// String tags, real tags, whole tags (the time step, components, values), then number and value.
-    fn node_data(&mut self) -> Result<(), MeshError> {
-        let n_strings = self.source.text_count("string tags")?;
-        let mut name = String::new();
-        for i in 0..n_strings {
-            let line = self.source.next_line();
-            if i == 0 {
-                name = line.trim_matches('"').to_owned();
-            }
-        }
-        let n_reals = self.source.text_count("real tags")?;
-        (0..n_reals).try_for_each(|_| self.source.text_number().map(drop))?;
-        let n_integers = self.source.text_count("whole tags")?;
-        let tags: Vec<i64> = (0..n_integers).map(|_| self.source.text_integer()).collect::<Result<_, _>>()?;
-        let shape = (tags.get(1), tags.get(2));
-        let (Some(&n_components @ 1..=9), Some(&n_values)) = shape else {
-            return Err(self.source.unexpected("the number of components and of values", None));
-        };
-        let n_components = usize::try_from(n_components).unwrap_or(1);
-        let n_points = self.points.len();
-        // Where there are fewer values than nodes the field is of no use, and nothing is allocated for it: a file may hold any
-        // number of such.
-        let is_kept = usize::try_from(n_values).is_ok_and(|n_values| n_values >= n_points);
-        let mut values = vec![0.0_f64; if is_kept { n_components * n_points } else { 0 }];
-        let mut is_given = vec![false; if is_kept { n_points } else { 0 }];
-        self.source.begin_numbers();
-        for _ in 0..n_values {
-            let node = self.source.int()?;
-            let node = self.names.find(node, self.source.place())? as usize;
-            for component in 0..n_components {
-                let value = self.source.number()?;
-                if is_kept {
-                    values[n_components * node + component] = value;
-                    is_given[node] = true;
-                }
-            }
-        }
-        let n_given = is_given.iter().filter(|&&is_given| is_given).count();
-        if !is_kept || n_given < n_points {
-            let found = if is_kept { n_given as u64 } else { u64::try_from(n_values).unwrap_or(0) };
-            let id = self.report.found(Kind::Field, &name);
-            self.report.leave_out(id, wrong_length(found, n_points as u64));
-            return Ok(());
-        }
-        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let numbers = Numbers { number: NumberType::Kept(ScalarType::F64), bytes };
-        let n_components = u32::try_from(n_components).unwrap_or(0);
-        self.fields.push(&name, n_components, numbers, self.points.len(), &mut self.report);
-        Ok(())
-    }
-
-    /// Skips a section up to its end.
+    /// Passes a section up to its end, by name.
     fn skip(&mut self, word: &[u8]) {
         let end = [b"$End", &word[1..]].concat();
-        if !matches!(word, b"$PhysicalNames" | b"$Entities" | b"$PartitionedEntities" | b"$Comments") {
-            let name = String::from_utf8_lossy(&word[1..]).into_owned();
-            self.report.named(Kind::Section, &name);
+        match word {
+            b"$Comments" => {}
+            b"$ElementData" | b"$ElementNodeData" => return self.element_data(&end),
+            _ => {
+                self.report.named(Kind::Section, &String::from_utf8_lossy(&word[1..]));
+            }
         }
         self.source.pass(&end);
+    }
+
+    /// Reads the names of groups and what belongs to them. They have no place in a mesh, so a section
+    /// that is not as it should be is left out.
+    fn groups(&mut self, word: &[u8]) {
+        let mut source = self.source.clone();
+        let is_read = match word {
+            b"$PhysicalNames" => self.groups.read_names(&mut source),
+            _ => self.groups.read_entities(&mut source),
+        };
+        if is_read.is_err() {
+            return self.skip(word);
+        }
+        self.source = source;
+        self.source.pass(&[b"$End", &word[1..]].concat());
     }
 }
 
@@ -378,7 +380,7 @@ mod tests {
         let whole = layout.version_4();
         let at = layout.header("4.1").len();
         let section =
-            [b"$Entities\n".to_vec(), layout.sizes(&[0, 0, 0, 1]), b"\n$EndEntities\n".to_vec()].concat();
+            [b"$Entities\n".to_vec(), layout.sizes(&[0, 0, 0, 0]), b"\n$EndEntities\n".to_vec()].concat();
         let file = [&whole[..at], &section, &whole[at..]].concat();
         assert_eq!(read(&file).unwrap(), read(&whole).unwrap());
     }

@@ -1,7 +1,6 @@
 //! Words and numbers of a Gmsh file. In a binary one sections, counts of version 2 and names are text as well, and numbers
 //! begin behind the end of a line.
 
-use crate::coordinates::check_coordinate;
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style, parse_integer};
 use crate::volume::words::{count, integer};
@@ -18,6 +17,7 @@ pub(super) enum Encoding {
 }
 
 /// A position in a file.
+#[derive(Clone)]
 pub(super) struct Source<'a> {
     n_bytes: usize,
     scanner: Scanner<'a>,
@@ -51,6 +51,11 @@ impl<'a> Source<'a> {
     /// The words of the next line, with one blank between each.
     pub(super) fn next_line(&mut self) -> String {
         self.scanner.next_line();
+        self.rest_of_line()
+    }
+
+    /// The words up to the end of this line, with one blank between each.
+    pub(super) fn rest_of_line(&mut self) -> String {
         let words = std::iter::from_fn(|| self.scanner.word_in_line());
         words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ")
     }
@@ -165,14 +170,9 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Three finite coordinates that `f32` can hold.
+    /// Three coordinates. A point that no element uses may be anything, so they are not checked.
     pub(super) fn point(&mut self) -> Result<[f64; 3], MeshError> {
-        if self.is_text() {
-            return self.scanner.point();
-        }
-        let point = [self.number()?, self.number()?, self.number()?];
-        point.iter().try_for_each(|&coordinate| check_coordinate(coordinate, self.place()))?;
-        Ok(point)
+        Ok([self.number()?, self.number()?, self.number()?])
     }
 
     /// Passes everything up to a word and that word, or to the end of the file.
