@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The time of a whole certified history beside that of other systems for what they give, in one run.
+"""The time of a whole certified history beside the times of other systems, in one run.
 
     python builders_time.py NEPHRITE SPEED MESH.ply... [--repeats 3]
 
-NEPHRITE is the program, SPEED the binary `speed` beside this script: it times nephrite's history and meshoptimizer's chain of halvings
-in memory. fast-simplification and vtkDecimatePro make one level of a tenth of the triangles. All of them take turns; medians over the
-repeats, and their ratios to the time of the history on two threads in memory.
+NEPHRITE is the program, SPEED the binary `speed` beside this script: it times nephrite's history
+and meshoptimizer's chain of halvings in memory. fast-simplification and vtkDecimatePro make one
+level of a tenth of the triangles. All run in turn. Prints medians over the repeats, and their ratios
+to the time of the history on two threads in memory.
 
 Needs: pip install vtk fast-simplification numpy meshio
 """

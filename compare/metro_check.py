@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""Hold the levels that `levels_check --write` wrote against an independent measurement: PyMeshLab's Metro.
+"""Checks the levels of `levels_check --write` with PyMeshLab's Metro.
 
     python metro_check.py METRO.PY FOLDER... [--samples 1000000] [--seconds 120]
 
-METRO.PY is a module with `load(path) -> (vertices, faces)` and `two_sided(reference, mesh, samples) -> dict` with the
-keys `max` and `bounding_diagonal`; each FOLDER holds a `levels.json`. Metro samples, so that what it finds is a lower
-bound of the distance: a level for which it finds more than is stated is broken, unless by no more than its own noise (see
-NOISE). Very coarse levels take it minutes; after `--seconds` a level is tried again with a tenth of the samples, then
-with a hundredth.
+METRO.PY is a module with `load(path) -> (vertices, faces)` and `two_sided(reference, mesh, samples)
+-> dict` with the keys `max` and `bounding_diagonal`; each FOLDER holds a `levels.json`. Metro
+samples, so that what it finds is a lower bound of the distance: a level for which it finds more
+than is stated is broken, unless by no more than its own noise (see NOISE). Very coarse levels take
+it minutes; after `--seconds` a level is tried again with a tenth of the samples, then with a
+hundredth.
 
-Metro sometimes misses the nearest triangle and finds too much, above all on non-manifold surfaces. Where it finds more than
-is stated, its samples are taken again and those beyond the stated error are held against every triangle of the other
-surface, in double precision. Only what remains counts as exceeded. Exit status 1 when any level is.
+Metro sometimes misses the nearest triangle and finds too much, above all on non-manifold surfaces.
+Where it finds more than is stated, its samples are taken again and those beyond the stated error
+are held against every triangle of the other surface, in double precision. Only what remains counts
+as exceeded. Exit status 1 when any level is.
 """
 import argparse
 import importlib.util

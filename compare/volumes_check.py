@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Tetrahedra beside vtkUnstructuredGridQuadricDecimation, in one run: time, boundary and field error at equal counts.
+"""Tetrahedra beside vtkUnstructuredGridQuadricDecimation, in one run: time, boundary and field
+error at equal counts.
 
     python volumes_check.py NEPHRITE VOLUME.vtk... [--reductions 0.5 0.75 0.9] [--repeats 3]
 
-NEPHRITE is the program. For every volume it is built with all its levels, once with all its fields and once with the one field that VTK's
-filter weighs and keeps: the first varying scalar. That filter gives one level a run and is run for each reduction. Levels with at most
-its tetrahedra are taken out, and all are held against the input by `nephrite measure`: the boundaries with a proven bracket, the
-field at the vertices of both. Times are medians of `--repeats` alternating runs in the same minutes; those of nephrite are to half
-of the tetrahedra and to the last, both with every level recorded, without reading and writing, as VTK's are.
+NEPHRITE is the program. For every volume it is built with all its levels, once with all its fields
+and once with the one field that VTK's filter weighs and keeps: the first varying scalar. That
+filter gives one level a run and is run for each reduction. Levels with at most its tetrahedra are
+taken out, and all are held against the input by `nephrite measure`: the boundaries with a proven
+bracket, the field at the vertices of both. Times are medians of `--repeats` alternating runs in the
+same minutes; those of nephrite are to half of the tetrahedra and to the last, both with every level
+recorded, without reading and writing, as VTK's are.
 """
 import argparse
 import json

@@ -3,10 +3,12 @@
 
     python volumes_read_back.py NEPHRITE VOLUME... [--errors 10]
 
-NEPHRITE is the program. Every volume is built and cut at `--errors` errors, spread evenly on a logarithmic scale between the least and the
-largest that its levels state. Each cut is written as VTU and read by pyvista, where every warning of VTK or Python is a failure; it
-must have as many tetrahedra and vertices as the program said, all of positive volume, and every field of the input under its name and
-in its type. Rates of extraction are those of `nephrite bench`, beside memcpy of the same bytes.
+NEPHRITE is the program. Every volume is built and cut at `--errors` errors, spread evenly on a
+logarithmic scale between the least and the largest that its levels state. Each cut is written as
+VTU and read by pyvista, where every warning of VTK or Python is a failure; it must have as many
+tetrahedra and vertices as the program said, all of positive volume, and every field of the input
+under its name and in its type. Rates of extraction are those of `nephrite bench`, beside memcpy of
+the same bytes.
 """
 import argparse
 import pathlib
