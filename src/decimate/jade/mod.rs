@@ -7,7 +7,7 @@
 //! parallel, a batch at a time, and those within the limits removed. No heap is needed, and the
 //! result does not depend on the number of threads.
 //!
-//! [`run`](run()) is the decimator. Its verbs, in the order of the data: [`worklists`] says who is
+//! `run` is the decimator. Its verbs, in the order of the data: [`worklists`] says who is
 //! tried next, [`batch`] plans and carries out, [`candidate`] fills the hole of one vertex
 //! ([`classify`], then [`fit`] or [`triangulate`], then [`validity`]), [`removal`] is one plan, and
 //! [`placement`] moves vertices that stay.
