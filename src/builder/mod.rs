@@ -99,7 +99,8 @@ impl Build {
     /// [`StreamError::NoOperations`] for a build of another decimator; [`StreamError::Meaningless`] for one whose stars of
     /// hundreds of thousands of triangles moved so often that no reader would follow.
     pub fn operations(&self) -> Result<Encoded, StreamError> {
-        encode(self)
+        let report = self.progressive.as_ref().ok_or(StreamError::NoOperations)?;
+        encode(&self.mesh, &report.trace)
     }
 }
 

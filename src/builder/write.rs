@@ -1,7 +1,6 @@
 //! Writing what was built: a build states its method, its bound and its counts itself.
 
 use super::{Build, VolumeBuild};
-use crate::progressive_mesh::encode;
 use crate::store::{Bound, Metadata, Method, Source, StoreOptions, StoreReport, WriteError};
 use nephrite_formats::publish::{Disk, Storage};
 use serde_json::{Value, json};
@@ -64,7 +63,7 @@ impl Build {
     }
 
     fn source(&self, options: &StoreOptions) -> Result<Source<'_, 3>, WriteError> {
-        let operations = if options.operations { encode(self)?.bytes } else { Vec::new() };
+        let operations = if options.operations { self.operations()?.bytes } else { Vec::new() };
         Ok(Source {
             vertices: self.vertices(),
             history: self.history(),

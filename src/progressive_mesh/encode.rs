@@ -7,7 +7,7 @@ use super::decode::{
 use super::growth::{Growth, GrowthKind};
 use super::plan::{Planned, plan};
 use super::planes::{Planes, difference, plane};
-use crate::Build;
+use crate::decimate::progressive::journal::Trace;
 use crate::flat::NO_INDEX;
 use nephrite_formats::TriangleMesh;
 
@@ -24,18 +24,16 @@ pub struct Encoded {
     pub n_vertices: usize,
 }
 
-/// The operations of a build as a stream. O(n) apart from compression, which takes most of the
-/// time.
+/// The operations that led from a mesh down as a stream; `mesh` is that of the history, with its
+/// triangles. O(n) apart from compression, which takes most of the time.
 ///
 /// # Errors
 ///
-/// [`StreamError::NoOperations`] for a build of another decimator. [`StreamError::Meaningless`] if
-/// stars of hundreds of thousands of triangles moved so often that no reader would accept the
-/// stream.
-pub(crate) fn encode(build: &Build) -> Result<Encoded, StreamError> {
-    let trace = &build.progressive().ok_or(StreamError::NoOperations)?.trace;
-    let mut writer = Writer::new(&build.mesh);
-    let planned = plan(build, trace);
+/// [`StreamError::Meaningless`] if stars of hundreds of thousands of triangles moved so often that
+/// no reader would accept the stream.
+pub(crate) fn encode(mesh: &TriangleMesh, trace: &Trace) -> Result<Encoded, StreamError> {
+    let mut writer = Writer::new(mesh);
+    let planned = plan(mesh, trace);
     let mut n_in_block = 0;
     let mut block_len = FIRST_BLOCK;
     for operation in &planned {

@@ -1,8 +1,8 @@
 //! What a decimation did, operation by operation, in the order of growth.
 
-use crate::Build;
 use crate::decimate::progressive::complex::Complex;
 use crate::decimate::progressive::journal::{Operation, Trace};
+use nephrite_formats::TriangleMesh;
 
 /// One operation to be written, in the numbers of the build: vertices of its mesh, triangles as
 /// slots.
@@ -19,8 +19,8 @@ pub(super) enum Planned {
 
 /// Plays the trace on the input, and returns the way back. Memory: as much as the stream of all
 /// operations.
-pub(super) fn plan(build: &Build, trace: &Trace) -> Vec<Planned> {
-    let mut complex = Complex::new(build.mesh.positions.clone(), build.mesh.triangles.clone());
+pub(super) fn plan(mesh: &TriangleMesh, trace: &Trace) -> Vec<Planned> {
+    let mut complex = Complex::new(mesh.positions.clone(), mesh.triangles.clone());
     let mut planned: Vec<Planned> = trace
         .operations
         .iter()

@@ -4,8 +4,8 @@
 //! in its death list, and in windowed files in every window that sees it. On a disk or a wire that is waste: here a slot
 //! either brings a new simplex or names an earlier one. Opening such a file lays the slots out again in memory, once.
 
-use super::OpenError;
 use super::pieces::Pieces;
+use super::{CompactFault, OpenError};
 use crate::flat::NO_INDEX;
 use nephrite_formats::neph::{index_bytes, stamp_bytes};
 
@@ -102,36 +102,6 @@ pub(super) struct Expanded {
     pub simplices: Vec<u32>,
     /// A stamp per slot.
     pub stamps: Vec<u32>,
-}
-
-/// What is wrong with the compact form of slots.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CompactFault {
-    /// Not as many bits as sources.
-    #[error("{found} slots are marked as repeats, there are sources for {expected}")]
-    Repeats {
-        /// Bits that are set.
-        found: u64,
-        /// Sources there are.
-        expected: u64,
-    },
-    /// A bit behind the last slot.
-    #[error("slot {found} of {n_slots} is marked as a repeat")]
-    Slot {
-        /// The slot of the bit.
-        found: u64,
-        /// Slots there are.
-        n_slots: u64,
-    },
-    /// A source that is no simplex of an earlier slot.
-    #[error("a repeat names simplex {found} of the {n_distinct} before it")]
-    Source {
-        /// Its value.
-        found: u64,
-        /// Distinct simplices of the slots before.
-        n_distinct: u64,
-    },
 }
 
 impl CompactSections<'_> {

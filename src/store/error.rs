@@ -1,6 +1,5 @@
 //! What can go wrong while writing, opening and verifying.
 
-use super::compact::CompactFault;
 use crate::history::HistoryError;
 use crate::progressive_mesh::StreamError;
 use crate::tree::{TreeError, TreeFault};
@@ -277,5 +276,35 @@ pub enum VerifyError {
         found: u64,
         /// The larger of the two numbers of triangles.
         expected: u64,
+    },
+}
+
+/// What is wrong with the compact form of slots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompactFault {
+    /// Not as many bits as sources.
+    #[error("{found} slots are marked as repeats, there are sources for {expected}")]
+    Repeats {
+        /// Bits that are set.
+        found: u64,
+        /// Sources there are.
+        expected: u64,
+    },
+    /// A bit behind the last slot.
+    #[error("slot {found} of {n_slots} is marked as a repeat")]
+    Slot {
+        /// The slot of the bit.
+        found: u64,
+        /// Slots there are.
+        n_slots: u64,
+    },
+    /// A source that is no simplex of an earlier slot.
+    #[error("a repeat names simplex {found} of the {n_distinct} before it")]
+    Source {
+        /// Its value.
+        found: u64,
+        /// Distinct simplices of the slots before.
+        n_distinct: u64,
     },
 }

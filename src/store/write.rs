@@ -5,7 +5,7 @@ use super::attributes::AttributeSections;
 use super::compact::CompactSlots;
 use super::content::Content;
 use super::pieces::Pieces;
-use super::{Metadata, Vertices, WriteError};
+use super::{Metadata, StoreReport, Vertices, WriteError};
 use crate::History;
 use crate::geometry::morton::Grid;
 use crate::history::Levels;
@@ -32,25 +32,6 @@ pub struct StoreOptions {
     /// Whether the file also holds the operations of a progressive build, from which the mesh can be built up one by one while
     /// they arrive, see [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh). Only a progressive build has them.
     pub operations: bool,
-}
-
-/// What was written.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct StoreReport {
-    /// Levels of the file.
-    pub n_levels: u32,
-    /// Stored lifetimes; a simplex may have several.
-    pub n_lifetimes: u32,
-    /// Stored copies of simplices.
-    pub n_slots: u32,
-    /// Vertices that some level has.
-    pub n_vertices: u32,
-    /// Simplices of the coarsest level.
-    pub n_coarsest: u32,
-    /// Error of the coarsest level, in mesh units.
-    pub max_error: f64,
-    /// Length of the file.
-    pub file_bytes: u64,
 }
 
 /// What a file is made of.
