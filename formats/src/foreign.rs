@@ -4,7 +4,8 @@ use crate::MeshError;
 use crate::text::{Scanner, Style};
 
 /// Files that begin with certain bytes, and what they are called.
-const MAGICS: [(&[u8], &str); 36] = [
+const MAGICS: [(&[u8], &str); 37] = [
+    (b"version https://git-lfs", "a pointer of Git LFS to the file itself"),
     (b"ISO-10303-21", "STEP"),
     (b"CDF\x01", "netCDF, as Exodus is"),
     (b"CDF\x02", "netCDF, as Exodus is"),

@@ -1,5 +1,6 @@
 //! Mesh files of any bytes.
 
+use crate::script::Script;
 use nephrite_formats::{
     MeshFormat, VolumeFormat, read_mesh_bytes, read_volume_bytes, write_mesh_to, write_volume_to,
 };
@@ -29,6 +30,26 @@ pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
             assert!(!message.is_empty() && !message.contains('\n') && message.len() < 400, "{message}");
         }
     }
+}
+
+/// Reads bytes as compressed values at the points of a VTU file: the compressor, the length that the
+/// block claims, the block.
+pub(crate) fn read_compressed(bytes: &[u8]) {
+    let mut script = Script::new(bytes);
+    let compressor = ["LZ4", "LZMA", "ZLib"][usize::from(script.u8()) % 3];
+    let claimed = u32::from(script.u16());
+    let block = bytes.get(3..).unwrap_or_default();
+    let head = format!(
+        "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtk{compressor}DataCompressor\"><UnstructuredGrid><Piece>\
+         <PointData><DataArray type=\"UInt8\" Name=\"a\" format=\"appended\" offset=\"0\"/></PointData>\
+         <Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>\
+         <DataArray type=\"Int8\" Name=\"connectivity\">0 1 2 3</DataArray><DataArray type=\"Int8\" Name=\"offsets\">4</DataArray>\
+         <DataArray type=\"Int8\" Name=\"types\">10</DataArray></Cells></Piece></UnstructuredGrid>\
+         <AppendedData encoding=\"raw\">_"
+    );
+    let length = u32::try_from(block.len()).unwrap();
+    let table = [1, claimed, 0, length].map(u32::to_le_bytes).concat();
+    read_volume(&[head.as_bytes(), &table, block].concat(), VolumeFormat::Vtu);
 }
 
 /// Reads bytes as a volume file. The result must be a consistent volume, or an error of one line.

@@ -72,6 +72,12 @@ fn read_vtu() {
 }
 
 #[test]
+fn read_compressed() {
+    on_this_thread();
+    check!().for_each(importers::read_compressed);
+}
+
+#[test]
 fn read_vtk() {
     on_this_thread();
     check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Vtk));
@@ -87,6 +93,12 @@ fn read_gmsh() {
 fn read_medit() {
     on_this_thread();
     check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Medit));
+}
+
+#[test]
+fn read_mfem() {
+    on_this_thread();
+    check!().for_each(|bytes: &[u8]| importers::read_volume(bytes, VolumeFormat::Mfem));
 }
 
 #[test]

@@ -14,10 +14,7 @@ pub(super) enum CellKind {
     Tetrahedron,
     Hexahedron,
     Voxel,
-    /// As VTK has it: its first triangle is seen counter-clockwise from outside.
     Prism,
-    /// As all others have it: its first triangle is seen counter-clockwise from inside.
-    UprightPrism,
     Pyramid,
 }
 
@@ -28,7 +25,7 @@ impl CellKind {
             Self::Flat => 0,
             Self::Tetrahedron => 4,
             Self::Pyramid => 5,
-            Self::Prism | Self::UprightPrism => 6,
+            Self::Prism => 6,
             Self::Hexahedron | Self::Voxel => 8,
         }
     }
@@ -109,8 +106,7 @@ impl Cells {
             let faces: &[&[usize]] = match kind {
                 CellKind::Hexahedron => &HEXAHEDRON,
                 CellKind::Voxel => &VOXEL,
-                CellKind::Prism => &PRISM,
-                CellKind::UprightPrism => &UPRIGHT_PRISM,
+                CellKind::Prism => prism_faces(corners, positions),
                 CellKind::Pyramid => &PYRAMID,
                 CellKind::Tetrahedron | CellKind::Flat => {
                     tetrahedra.extend(corners.first_chunk::<4>());
@@ -122,6 +118,21 @@ impl Cells {
         }
         tetrahedra
     }
+}
+
+/// The faces of a prism. Programs differ in which side they see its triangles from, also those that write
+/// one format, so its shape decides.
+fn prism_faces(corners: &[u32], positions: &[[f32; 3]]) -> &'static [&'static [usize]] {
+    let point = |corner: usize| positions[corners[corner] as usize].map(f64::from);
+    let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    let side = |[a, b, c]: [usize; 3], towards: [f64; 3]| {
+        let (u, v) = (minus(point(b), point(a)), minus(point(c), point(a)));
+        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        normal[0] * towards[0] + normal[1] * towards[1] + normal[2] * towards[2]
+    };
+    let edges = [0, 1, 2].map(|corner| minus(point(corner + 3), point(corner)));
+    let upwards = [0, 1, 2].map(|axis| edges.iter().map(|edge| edge[axis]).sum());
+    if side([0, 1, 2], upwards) + side([3, 4, 5], upwards) > 0.0 { &UPRIGHT_PRISM } else { &PRISM }
 }
 
 /// For each vertex the first vertex at its position.
@@ -159,6 +170,28 @@ mod tests {
             cells.push(CellKind::Hexahedron, &nodes, positions.len(), Place::File, &mut report).unwrap();
         }
         (positions, cells)
+    }
+
+    #[test]
+    fn prisms_are_filled_whichever_side_their_triangles_are_seen_from() {
+        let positions: Vec<[f32; 3]> = vec![
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [1.0, 0.0, 1.0],
+            [0.0, 1.0, 1.0],
+        ];
+        for nodes in [[0, 1, 2, 3, 4, 5], [0, 2, 1, 3, 5, 4], [4, 3, 5, 1, 0, 2]] {
+            let mut report = FileReport::new(VolumeFormat::Vtk);
+            let mut cells = Cells::default();
+            cells.push(CellKind::Prism, &nodes, 6, Place::File, &mut report).unwrap();
+            let tetrahedra = cells.into_tetrahedra(&positions);
+            let mesh =
+                crate::TetrahedronMesh { positions: positions.clone(), tetrahedra, ..Default::default() };
+            assert!(mesh.tetrahedra.iter().all(|&t| mesh.six_volumes(t) > 0.0), "{nodes:?}");
+            assert!((mesh.volume() - 0.5).abs() < 1e-12);
+        }
     }
 
     #[test]

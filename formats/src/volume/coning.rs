@@ -16,7 +16,7 @@ pub(super) const HEXAHEDRON: [&[usize]; 6] =
 /// Faces of a voxel: a hexahedron whose vertices count x first, then y, then z.
 pub(super) const VOXEL: [&[usize]; 6] =
     [&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[1, 3, 7, 5], &[3, 2, 6, 7], &[2, 0, 4, 6]];
-/// Faces of a prism over the triangle 0 1 2, with VTK's orientation: that triangle is seen counter-clockwise from outside.
+/// Faces of a prism over the triangle 0 1 2, which is seen counter-clockwise from outside.
 pub(super) const PRISM: [&[usize]; 5] = [&[0, 1, 2], &[3, 5, 4], &[0, 3, 4, 1], &[1, 4, 5, 2], &[2, 5, 3, 0]];
 /// Faces of a prism over the triangle 0 1 2, which is seen counter-clockwise from inside.
 pub(super) const UPRIGHT_PRISM: [&[usize]; 5] =

@@ -30,6 +30,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
         references: [BTreeSet::new(), BTreeSet::new()],
     };
     let mut keyword = reader.scanner.word();
+    if !keyword.is_some_and(|word| word.eq_ignore_ascii_case(b"meshversionformatted")) {
+        return Err(reader.scanner.unexpected("MeshVersionFormatted", keyword));
+    }
     while let Some(word) = keyword {
         let lower = word.to_ascii_lowercase();
         if lower == b"end" {
@@ -136,7 +139,7 @@ impl<'a> Reader<'a> {
             return Err(self.scanner.unexpected("a keyword of MEDIT", Some(keyword)));
         }
         let name = String::from_utf8_lossy(keyword).into_owned();
-        if lower.ends_with(b"ordering") {
+        if lower.strip_suffix(b"ordering").is_some_and(|of| solid(of).is_some()) {
             let feature = format!("an order of nodes of its own ({})", crate::error::shown_name(&name));
             return Err(MeshError::Unsupported { place: self.scanner.place(), feature });
         }
@@ -197,10 +200,10 @@ fn solid(keyword: &[u8]) -> Option<(CellKind, usize)> {
         b"hexahedraq2" => (CellKind::Hexahedron, 27),
         b"hexahedraq3" => (CellKind::Hexahedron, 64),
         b"hexahedraq4" => (CellKind::Hexahedron, 125),
-        b"prisms" | b"pentahedra" => (CellKind::UprightPrism, 6),
-        b"prismsp2" => (CellKind::UprightPrism, 18),
-        b"prismsp3" => (CellKind::UprightPrism, 40),
-        b"prismsp4" => (CellKind::UprightPrism, 75),
+        b"prisms" | b"pentahedra" => (CellKind::Prism, 6),
+        b"prismsp2" => (CellKind::Prism, 18),
+        b"prismsp3" => (CellKind::Prism, 40),
+        b"prismsp4" => (CellKind::Prism, 75),
         b"pyramids" => (CellKind::Pyramid, 5),
         b"pyramidsp2" => (CellKind::Pyramid, 14),
         b"pyramidsp3" => (CellKind::Pyramid, 30),
@@ -294,6 +297,7 @@ mod tests {
         let (mesh, report) = read(text.as_bytes()).unwrap();
         assert_eq!((mesh.tetrahedra.len(), report.n_cells_straightened), (9, 1));
         assert!((mesh.volume() - 1.5).abs() < 1e-6);
+        assert!(read(with_section("TrianglesP2Ordering 1 0 0 0").as_bytes()).is_ok());
         let text = with_section("TetrahedraP2Ordering 1 0 0 0 0");
         assert!(matches!(read(text.as_bytes()), Err(MeshError::Unsupported { .. })));
     }

@@ -90,7 +90,7 @@ const END: usize = 54;
 fn solid(keyword: usize) -> Option<(CellKind, usize)> {
     match keyword {
         8 => Some((CellKind::Tetrahedron, 4)),
-        9 => Some((CellKind::UprightPrism, 6)),
+        9 => Some((CellKind::Prism, 6)),
         10 => Some((CellKind::Hexahedron, 8)),
         30 => Some((CellKind::Tetrahedron, 10)),
         33 => Some((CellKind::Hexahedron, 27)),

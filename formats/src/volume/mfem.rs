@@ -209,7 +209,7 @@ fn element_type(number: i64) -> Option<(CellKind, usize)> {
         3 => (CellKind::Flat, 4),
         4 => (CellKind::Tetrahedron, 4),
         5 => (CellKind::Hexahedron, 8),
-        6 => (CellKind::UprightPrism, 6),
+        6 => (CellKind::Prism, 6),
         7 => (CellKind::Pyramid, 5),
         _ => return None,
     })

@@ -24,7 +24,8 @@ use crate::{figures, files, interrupt};
 /// Turn a mesh into a file that holds every level of detail of it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Arguments {
-    /// Mesh to read: PLY, OBJ, STL, OFF, glTF or GLB; or a volume: VTU, VTK, Gmsh, MEDIT, TetGen or PLOT3D
+    /// Mesh to read: PLY, OBJ, STL, OFF, glTF or GLB; or a volume: VTU, PVTU, PVD, VTK, Gmsh, MEDIT,
+    /// MFEM, TetGen or PLOT3D
     mesh: PathBuf,
 
     /// More parts of a database, or folders of them

@@ -146,7 +146,7 @@ const PYRAMIDS: &[Nodes] = &[
 const ALL: [(u8, CellKind, &[Nodes]); 8] = [
     (3, CellKind::Tetrahedron, TETRAHEDRA),
     (3, CellKind::Hexahedron, HEXAHEDRA),
-    (3, CellKind::UprightPrism, PRISMS),
+    (3, CellKind::Prism, PRISMS),
     (3, CellKind::Pyramid, PYRAMIDS),
     (2, CellKind::Flat, TRIANGLES),
     (2, CellKind::Flat, QUADRILATERALS),
