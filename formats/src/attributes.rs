@@ -1,5 +1,6 @@
 //! Attributes made from numbers and read as numbers.
 
+use crate::coordinates::nearest_f32;
 use crate::{Attribute, ScalarType};
 
 impl Attribute {
@@ -44,6 +45,29 @@ impl Attribute {
             }
         }
         Self { name: name.into(), scalar, n_components, bytes }
+    }
+
+    /// The same texture coordinates with V counted from the other end of the picture: glTF and meshes
+    /// in memory count from the top, all other formats from the bottom.
+    pub(crate) fn with_v_turned(&self) -> Self {
+        let values = self.values().enumerate().map(|(i, value)| if i % 2 == 1 { 1.0 - value } else { value });
+        Self::from_values(&*self.name, self.scalar, self.n_components, values)
+    }
+
+    /// Texture coordinates for text, V counted from the bottom: as few digits as give the same `f32` when
+    /// they are turned back.
+    pub(crate) fn texcoord_texts(&self) -> impl Iterator<Item = String> {
+        self.values().enumerate().map(|(i, value)| {
+            if i % 2 == 0 {
+                return format!("{:?}", nearest_f32(value));
+            }
+            let turned = 1.0 - value;
+            let short = format!("{turned:.7}");
+            let short = short.trim_end_matches('0').trim_end_matches('.');
+            let is_same =
+                |text: &str| text.parse().is_ok_and(|v: f64| nearest_f32(1.0 - v) == nearest_f32(value));
+            if is_same(short) { short.to_owned() } else { format!("{turned:?}") }
+        })
     }
 
     /// As [`Attribute::values`], integers scaled so that the type's largest value is 1: the meaning of integer colours.

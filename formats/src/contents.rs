@@ -67,10 +67,10 @@ impl Change {
             Self::Renamed { .. } if is_of_many => "renamed".to_owned(),
             Self::Renamed { new_name } => format!("renamed {}", quoted_name(new_name)),
             Self::Narrowed { scalar } => format!("kept as {scalar}"),
-            Self::Filled { value, .. } if is_of_many => format!("absent at some vertices, now {value} there"),
+            Self::Filled { value, .. } if is_of_many => format!("absent at some vertices and {value} there"),
             Self::Filled { n_vertices, value } => {
                 let vertices = if *n_vertices == 1 { "vertex" } else { "vertices" };
-                format!("absent at {} {vertices}, now {value} there", figure(*n_vertices))
+                format!("absent at {} {vertices} and {value} there", figure(*n_vertices))
             }
             Self::Otherwise(clause) => clause.clone().into_owned(),
         }
@@ -167,9 +167,7 @@ kinds! {
     Chunk = "chunk", "chunks";
     /// A property of a part of a document that is not read.
     Property = "property", "properties";
-    /// Vertices that no face uses and that have no place in the result.
-    UnusedVertex = "vertex that no face uses", "vertices that no face uses";
-    /// Points that no cell uses and whose position is not finite or too large.
+    /// Points that no face or cell uses and whose position is not finite or too large.
     UnusablePoint = "unused point without a usable position", "unused points without a usable position";
     /// Cells that copy those of another piece, are covered by finer ones or are hidden.
     GhostCell = "ghost cell", "ghost cells";

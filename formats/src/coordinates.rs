@@ -5,6 +5,8 @@
 //! So both are tried and the displacement of the worst vertex decides.
 
 use crate::error::{MeshError, Place};
+use crate::unused::drop_bad_points;
+use crate::{Attribute, FileReport};
 
 /// Positions about an origin, and how far the worst of them is from where the file put it.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +17,66 @@ pub(crate) struct Coordinates {
     pub positions: Vec<[f32; 3]>,
     /// Largest distance between a point and `origin + position`, in mesh units.
     pub rounding: f64,
+}
+
+/// Points in the precision of the file.
+pub(crate) enum Points {
+    F32(Vec<[f32; 3]>),
+    F64(Vec<[f64; 3]>),
+    /// `f64` from text, whose digits may be those of `f32`.
+    Text(Vec<[f64; 3]>),
+}
+
+impl Points {
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::F32(points) => points.len(),
+            Self::F64(points) | Self::Text(points) => points.len(),
+        }
+    }
+
+    /// As [`drop_bad_points`].
+    ///
+    /// # Errors
+    ///
+    /// As [`drop_bad_points`].
+    pub(crate) fn drop_bad(
+        &mut self,
+        attributes: &mut [Attribute],
+        corners: &mut [&mut [u32]],
+        place_of: &dyn Fn(usize) -> Place,
+        report: &mut FileReport,
+    ) -> Result<(), MeshError> {
+        match self {
+            Self::F32(points) => drop_bad_points(points, attributes, corners, place_of, report),
+            Self::F64(points) | Self::Text(points) => {
+                drop_bad_points(points, attributes, corners, place_of, report)
+            }
+        }
+    }
+
+    /// Copies points behind all others.
+    pub(crate) fn copy_to_end(&mut self, copied: &[u32]) {
+        match self {
+            Self::F32(points) => copied.iter().for_each(|&point| points.push(points[point as usize])),
+            Self::F64(points) | Self::Text(points) => {
+                copied.iter().for_each(|&point| points.push(points[point as usize]));
+            }
+        }
+    }
+
+    /// Chooses the origin and rounds to `f32` about it.
+    ///
+    /// # Errors
+    ///
+    /// As [`from_f64`].
+    pub(crate) fn into_coordinates(self) -> Result<Coordinates, MeshError> {
+        match self {
+            Self::F32(points) => from_f32(points),
+            Self::F64(points) => from_f64(&points),
+            Self::Text(points) => from_text(&points),
+        }
+    }
 }
 
 /// A shift of the origin must make the rounding this many times smaller to be worth it.

@@ -58,6 +58,22 @@ impl Faces {
         }
     }
 
+    /// Triangles for normals: polygons as fans about their first corner, whatever their shape.
+    pub(crate) fn fans(&self) -> impl Iterator<Item = [u32; 3]> {
+        let starts = std::iter::once(0).chain(self.polygons.iter().map(|polygon| polygon.corners_end));
+        let ends = self.polygons.iter().map(|polygon| polygon.corners_end);
+        let fan = |(start, end): (usize, usize)| {
+            let corners = &self.polygon_corners[start..end];
+            corners.windows(2).skip(1).map(|edge| [corners[0], edge[0], edge[1]])
+        };
+        self.triangles.iter().copied().chain(starts.zip(ends).flat_map(fan))
+    }
+
+    /// The corners of all faces, in two lists.
+    pub(crate) fn corners_mut(&mut self) -> [&mut [u32]; 2] {
+        [self.triangles.as_flattened_mut(), &mut self.polygon_corners]
+    }
+
     /// All faces as triangles in file order, polygons cut; every index must be below `positions.len()`. Counts go to `report`.
     pub(crate) fn into_triangles(self, positions: &[[f32; 3]], report: &mut FileReport) -> Vec<[u32; 3]> {
         report.n_faces_dropped += self.n_dropped;

@@ -2,6 +2,7 @@
 //!
 //! Contents are believed before extensions: a PLY file named `.obj` is read as PLY, and the report says so.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::io::Write;
 use std::path::Path;
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::input::read_input;
 use crate::publish::publish;
-use crate::text::{Scanner, Style};
+use crate::text::{BYTE_ORDER_MARK, Scanner, Style, as_utf8};
 use crate::{FileReport, Kind, MeshError, TriangleMesh, foreign, gltf, obj, off, ply, stl};
 
 /// A mesh file format.
@@ -70,6 +71,8 @@ impl MeshFormat {
         if is_sized_stl && extension == Some(Self::Stl) {
             return extension;
         }
+        let beginning = as_utf8(beginning(bytes));
+        let bytes = beginning.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&beginning);
         let magic = if bytes.starts_with(b"glTF") {
             Some(Self::Glb)
         } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
@@ -122,6 +125,7 @@ pub fn read_mesh(path: impl AsRef<Path>) -> Result<(TriangleMesh, FileReport), M
 fn read_file(path: &Path) -> Result<(TriangleMesh, FileReport), MeshError> {
     let bytes = read_input(path)?;
     let extension = MeshFormat::from_path(path);
+    let bytes = in_utf8(&bytes);
     let by_contents = MeshFormat::detect(&bytes, None);
     if by_contents.is_none()
         && extension != Some(MeshFormat::Stl)
@@ -135,6 +139,16 @@ fn read_file(path: &Path) -> Result<(TriangleMesh, FileReport), MeshError> {
         report.remark(format!("the extension says {extension}, the contents are {format}"));
     }
     Ok((mesh, report))
+}
+
+/// The contents of a file, text in UTF-16 as UTF-8. The header of a binary STL file may begin with any
+/// bytes.
+fn in_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    if stl::length_of_binary(bytes) == Some(bytes.len() as u64) {
+        Cow::Borrowed(bytes)
+    } else {
+        as_utf8(bytes)
+    }
 }
 
 /// Reads a mesh from the bytes of a file in a known format.
@@ -151,6 +165,7 @@ fn read_bytes(
     format: MeshFormat,
     folder: Option<&Path>,
 ) -> Result<(TriangleMesh, FileReport), MeshError> {
+    let bytes = &in_utf8(bytes);
     match format {
         MeshFormat::Ply => ply::read(bytes),
         MeshFormat::Obj => obj::read(bytes),

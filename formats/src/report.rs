@@ -317,7 +317,7 @@ mod tests {
             [
                 "field \"id\" is renamed \"id_2\"",
                 "field \"id\" is kept as i32",
-                "attribute \"color\" is absent at 1 vertex, now white there",
+                "attribute \"color\" is absent at 1 vertex and white there",
                 "attribute \"FOO\" is left out: glTF does not define it",
             ]
         );

@@ -3,9 +3,25 @@
 //! A line ends at LF, CR LF or a lone CR. Nothing is copied and nothing is looked at twice, so one line of a gigabyte costs
 //! what a gigabyte of short lines costs.
 
+use std::borrow::Cow;
 use std::str::FromStr;
 
 use crate::error::{MeshError, Place, excerpt};
+
+/// What some programs write before UTF-8.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// UTF-8 in place of UTF-16 that begins with its byte order mark; other bytes as they are.
+pub(crate) fn as_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xFF, 0xFE, ..] => u16::from_le_bytes,
+        [0xFE, 0xFF, ..] => u16::from_be_bytes,
+        _ => return Cow::Borrowed(bytes),
+    };
+    let units = bytes[2..].as_chunks().0.iter().map(|&bytes| unit(bytes));
+    let characters = char::decode_utf16(units).map(|decoded| decoded.unwrap_or(char::REPLACEMENT_CHARACTER));
+    Cow::Owned(characters.collect::<String>().into_bytes())
+}
 
 /// A position in a text.
 #[derive(Clone)]
@@ -28,7 +44,7 @@ pub(crate) struct Style {
 impl<'a> Scanner<'a> {
     /// Starts at the first byte after a byte order mark, in line 1.
     pub(crate) fn new(bytes: &'a [u8], style: Style) -> Self {
-        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
         Self::new_at(bytes, 0, 1, style)
     }
 
@@ -83,6 +99,24 @@ impl<'a> Scanner<'a> {
         }
     }
 
+    /// The words up to the end of the line with one blank between them: names may hold blanks. Of a name
+    /// longer than anybody writes, the beginning.
+    pub(crate) fn rest_of_line(&mut self) -> String {
+        const LONGEST_BYTES: usize = 1000;
+        let mut text = String::new();
+        while let Some(word) = self.word_in_line() {
+            if text.len() >= LONGEST_BYTES {
+                continue;
+            }
+            let word = &word[..word.len().min(LONGEST_BYTES)];
+            if !text.is_empty() {
+                text.push(' ');
+            }
+            text.push_str(&String::from_utf8_lossy(word));
+        }
+        text
+    }
+
     /// Goes to the start of the next line; false where there is none.
     pub(crate) fn next_line(&mut self) -> bool {
         loop {
@@ -133,26 +167,6 @@ impl<'a> Scanner<'a> {
     pub(crate) fn number_in_line(&mut self) -> Result<f64, MeshError> {
         let word = self.word_in_line();
         self.to_number(word)
-    }
-
-    /// The next word of any line as a finite coordinate that `f32` can hold.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scanner::number`], and those of [`crate::coordinates::check_coordinate`].
-    pub(crate) fn coordinate(&mut self) -> Result<f64, MeshError> {
-        let value = self.number()?;
-        crate::coordinates::check_coordinate(value, self.place())?;
-        Ok(value)
-    }
-
-    /// Three coordinates in this line or the lines after it.
-    ///
-    /// # Errors
-    ///
-    /// As [`Scanner::coordinate`].
-    pub(crate) fn point(&mut self) -> Result<[f64; 3], MeshError> {
-        Ok([self.coordinate()?, self.coordinate()?, self.coordinate()?])
     }
 
     /// An error that says what stands here instead of what should.
@@ -267,6 +281,17 @@ mod tests {
         let mut scanner = Scanner::new(b"\xEF\xBB\xBFa \\\nb\n\nc", OBJ);
         while scanner.word() != Some(b"c") {}
         assert_eq!(scanner.place(), Place::Line(4));
+    }
+
+    #[test]
+    fn utf_16_becomes_utf_8() {
+        let text = "v \u{e4}\u{1f600}\n";
+        let units: Vec<u16> = std::iter::once(0xFEFF).chain(text.encode_utf16()).collect();
+        let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        assert_eq!((&*as_utf8(&little), &*as_utf8(&big)), (text.as_bytes(), text.as_bytes()));
+        assert_eq!(&*as_utf8(b"\xFF\xFEv"), b"");
+        assert_eq!(&*as_utf8(b"\xFF"), b"\xFF");
     }
 
     #[test]

@@ -146,12 +146,38 @@ fn compressed_primitives_are_refused() {
     let bare = draco.replace("\"bufferView\": 0, ", "");
     let message = "mesh 0: KHR_draco_mesh_compression is not supported";
     assert_eq!(error(bare.as_bytes()).to_string(), message);
-    let meshopt = r#"{"asset": {"version": "2.0"}, "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {}}}],
-        "buffers": [{"byteLength": 36}]}"#;
-    let message = "buffer view 0: EXT_meshopt_compression is not supported";
-    assert_eq!(error(meshopt.as_bytes()).to_string(), message);
+}
+
+#[test]
+fn broken_streams_of_meshopt_are_refused_where_they_are_used() {
+    let lists = |stride: u32, filter: &str| {
+        format!(
+            r#""meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+            "accessors": [{{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}}],
+            "bufferViews": [{{"buffer": 0, "byteLength": 36, "extensions": {{"EXT_meshopt_compression": {{
+            "buffer": 0, "byteLength": 36, "byteStride": {stride}, "count": 3, "mode": "ATTRIBUTES", "filter": "{filter}"}}}}}}]"#
+        )
+    };
+    for (stride, filter, first, found) in [
+        (12, "NONE", 0x00, "other bytes"),
+        (12, "NONE", 0xa1, "other bytes"),
+        (13, "NONE", 0xa0, "a stride of 13 bytes"),
+        (12, "OCTAHEDRAL", 0xa0, "other bytes"),
+    ] {
+        let mut bytes = [0; 36];
+        bytes[0] = first;
+        let message = format!("buffer view 0: expected a stream of EXT_meshopt_compression, found {found}");
+        assert_eq!(error(&gltf(&lists(stride, filter), &bytes)).to_string(), message);
+    }
+    // 12 data blocks of one empty group each, then the tail: three times the baseline.
+    let mut bytes = vec![0xa0];
+    bytes.extend([0; 12 + 20]);
+    for value in [1.0_f32, 2.0, 3.0] {
+        bytes.extend(value.to_le_bytes());
+    }
+    let whole = lists(12, "NONE").replace("\"byteLength\": 36", &format!("\"byteLength\": {}", bytes.len()));
+    let (mesh, _) = read(&gltf(&whole, &bytes));
+    assert_eq!(mesh.positions, [[1.0, 2.0, 3.0]; 3]);
 }
 
 #[test]
@@ -182,7 +208,7 @@ fn contradictions_name_the_object_at_fault() {
         "accessor 0: expected a stride of an element's size at least, found 8",
     );
     check("\"version\": \"2.0\"", "\"version\": \"1.0\"", "the file: glTF version 1.0 is not supported");
-    let message = "mesh 0: 4000000001 vertices and indices of all instances together announced, there can be at most 1048576";
+    let message = "the scene: 8000000001 vertices and corners of all instances announced, there can be at most 16777216";
     check("\"count\": 3", "\"count\": 4000000000", message);
     assert!(error(document.replace("5126", "5124").as_bytes()).to_string().contains("component type 5124"));
     assert!(matches!(error(b"{"), MeshError::Json(_)));
@@ -202,5 +228,5 @@ fn instances_cannot_unfold_without_bound() {
         primitives.trim_end_matches(','),
     );
     let error = error(&gltf(&lists, &[0; 36]));
-    assert!(matches!(error, MeshError::CountTooLarge { .. }), "{error}");
+    assert!(matches!(error, MeshError::CountTooLarge { count: 36_009_000, .. }), "{error}");
 }

@@ -84,6 +84,7 @@ fn texts() -> Vec<Case> {
         .map(|angle| format!("v {} {} 0\n", (angle.cos() * 1024.0).round(), (angle.sin() * 1024.0).round()))
         .collect();
     [
+        ("contents-are-step", b"ISO-10303-21;\nHEADER;\n".to_vec()),
         ("only-comments", b"# nothing\n# at all\n".to_vec()),
         ("only-vertices", SQUARE.into()),
         ("only-newlines", b"\n\r\n\r\n\n".to_vec()),

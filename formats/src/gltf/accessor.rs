@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 
 use super::buffers::Buffers;
-use super::document::{BufferView, Document, Sparse};
+use super::document::{BufferView, Compression, Document, Sparse};
+use super::meshopt;
 use crate::ScalarType;
-use crate::error::{MeshError, Place, shown_name};
+use crate::error::{MeshError, Place};
 
 /// A document with the bytes it refers to.
 pub(crate) struct Source<'a> {
@@ -13,6 +14,8 @@ pub(crate) struct Source<'a> {
     pub buffers: &'a Buffers<'a>,
     /// Bytes of the document and its buffers together, which bound what may be allocated.
     pub n_bytes: u64,
+    /// Decoded contents of compressed views; `None` for other views and broken ones.
+    decoded: Vec<Option<Vec<u8>>>,
 }
 
 /// The elements of an accessor, one after another without gaps, little-endian.
@@ -26,6 +29,42 @@ pub(crate) struct Elements<'a> {
 }
 
 impl<'a> Source<'a> {
+    /// A document with its buffers, compressed views decoded.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::CountTooLarge`] where the views together would take more than their bytes
+    /// justify. A view whose bytes are broken is an error where it is used.
+    pub(crate) fn new(
+        document: &'a Document,
+        buffers: &'a Buffers<'a>,
+        n_bytes: u64,
+    ) -> Result<Self, MeshError> {
+        let mut source = Self { document, buffers, n_bytes, decoded: Vec::new() };
+        let limit = n_bytes.saturating_mul(meshopt::MOST_PER_BYTE);
+        let mut count = 0_u64;
+        for view in &document.buffer_views {
+            let compression = view.extensions.compression.as_ref();
+            if let Some(layout) = compression {
+                count = count.saturating_add(layout.count.saturating_mul(layout.byte_stride));
+            }
+            if count > limit {
+                let (place, what) = (Place::Part("compressed buffer views"), "bytes");
+                return Err(MeshError::CountTooLarge { place, what, count, limit });
+            }
+            let decoded = compression.and_then(|layout| source.decode(layout, Place::File).ok());
+            source.decoded.push(decoded);
+        }
+        Ok(source)
+    }
+
+    /// The contents of a compressed view.
+    fn decode(&self, layout: &Compression, place: Place) -> Result<Vec<u8>, MeshError> {
+        let missing = MeshError::Missing { place: Place::item("buffer", layout.buffer), what: "contents" };
+        let contents = self.buffers.get(layout.buffer).ok_or(missing)?;
+        meshopt::decode(slice(contents, layout.byte_offset, layout.byte_length, place)?, layout, place)
+    }
+
     /// Number of elements of an accessor, without looking at its bytes.
     ///
     /// # Errors
@@ -40,7 +79,7 @@ impl<'a> Source<'a> {
     /// # Errors
     ///
     /// [`MeshError`] with the accessor at fault, for anything that reaches outside of what holds it.
-    pub(crate) fn elements(&self, index: usize) -> Result<Elements<'a>, MeshError> {
+    pub(crate) fn elements(&self, index: usize) -> Result<Elements<'_>, MeshError> {
         let accessor = get(&self.document.accessors, index, "accessor", Place::File)?;
         let place = Place::item("accessor", index);
         let scalar = accessor.component_type.0;
@@ -71,7 +110,7 @@ impl<'a> Source<'a> {
         byte_offset: u64,
         (count, element_bytes): (u64, usize),
         place: Place,
-    ) -> Result<Cow<'a, [u8]>, MeshError> {
+    ) -> Result<Cow<'_, [u8]>, MeshError> {
         let (view, contents) = self.view(view, place)?;
         let stride = view.byte_stride.unwrap_or(element_bytes as u64);
         if stride < element_bytes as u64 {
@@ -99,22 +138,22 @@ impl<'a> Source<'a> {
     }
 
     /// The contents of a view.
-    fn view(&self, index: usize, place: Place) -> Result<(&'a BufferView, &'a [u8]), MeshError> {
+    fn view(&self, index: usize, place: Place) -> Result<(&BufferView, &[u8]), MeshError> {
         let view = get(&self.document.buffer_views, index, "buffer view", place)?;
         let place = Place::item("buffer view", index);
         get(&self.document.buffers, view.buffer, "buffer", place)?;
-        let Some(contents) = self.buffers.get(view.buffer) else {
-            let compression = view.extensions.keys().find(|name| name.ends_with("meshopt_compression"));
-            return Err(match compression {
-                Some(name) => MeshError::Unsupported { place, feature: shown_name(name) },
-                None => MeshError::Missing { place: Place::item("buffer", view.buffer), what: "contents" },
-            });
-        };
-        let end = view.byte_offset.saturating_add(view.byte_length);
-        let range = usize::try_from(view.byte_offset).ok().zip(usize::try_from(end).ok());
-        let found = contents.len() as u64;
-        let truncated = MeshError::Truncated { place, what: "data", expected: end, found };
-        Ok((view, range.and_then(|(start, end)| contents.get(start..end)).ok_or(truncated)?))
+        if let Some(layout) = &view.extensions.compression {
+            return match self.decoded.get(index) {
+                Some(Some(decoded)) => Ok((view, decoded)),
+                _ => Err(self
+                    .decode(layout, place)
+                    .err()
+                    .unwrap_or(MeshError::Missing { place, what: "contents" })),
+            };
+        }
+        let missing = MeshError::Missing { place: Place::item("buffer", view.buffer), what: "contents" };
+        let contents = self.buffers.get(view.buffer).ok_or(missing)?;
+        Ok((view, slice(contents, view.byte_offset, view.byte_length, place)?))
     }
 
     /// Puts the elements of a sparse accessor in their places.
@@ -201,6 +240,15 @@ fn unsigned_values(scalar: ScalarType, bytes: &[u8]) -> Option<Box<dyn Iterator<
         ScalarType::U32 => Box::new(bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes))),
         _ => return None,
     })
+}
+
+/// A part of a buffer.
+fn slice(contents: &[u8], offset: u64, length: u64, place: Place) -> Result<&[u8], MeshError> {
+    let end = offset.saturating_add(length);
+    let range = usize::try_from(offset).ok().zip(usize::try_from(end).ok());
+    let found = contents.len() as u64;
+    let truncated = MeshError::Truncated { place, what: "data", expected: end, found };
+    range.and_then(|(start, end)| contents.get(start..end)).ok_or(truncated)
 }
 
 /// An item of a document's list.

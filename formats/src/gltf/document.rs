@@ -10,7 +10,6 @@ use crate::ScalarType;
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Document {
-    pub asset: Asset,
     pub scene: Option<usize>,
     #[serde(default)]
     pub scenes: Vec<Scene>,
@@ -24,6 +23,28 @@ pub(crate) struct Document {
     pub buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub materials: Vec<Material>,
+    #[serde(default)]
+    pub images: Vec<Image>,
+    #[serde(default)]
+    pub textures: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub animations: Vec<Named>,
+    #[serde(default)]
+    pub skins: Vec<Named>,
+    #[serde(default)]
+    pub cameras: Vec<Named>,
+    #[serde(default)]
+    pub extensions_used: Vec<String>,
+    #[serde(default)]
+    pub extensions_required: Vec<String>,
+}
+
+/// What is read of a document before everything else: other versions have other shapes.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Version {
+    pub asset: Asset,
 }
 
 #[derive(Debug, Deserialize)]
@@ -31,10 +52,80 @@ pub(crate) struct Asset {
     pub version: String,
 }
 
+/// The keys of a document.
+#[derive(Debug, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Keys(pub BTreeMap<String, IgnoredAny>);
+
+/// An object of which only the name is read.
+#[derive(Debug, Default, Deserialize)]
+pub(crate) struct Named {
+    pub name: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(crate) struct Image {
+    pub name: Option<String>,
+    pub uri: Option<String>,
+}
+
 #[derive(Debug, Deserialize)]
 pub(crate) struct Scene {
     #[serde(default)]
     pub nodes: Vec<usize>,
+    pub name: Option<String>,
+}
+
+/// A material: its name, and where its textures are.
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(crate) struct Material {
+    pub name: Option<String>,
+    pub pbr_metallic_roughness: MetallicRoughness,
+    pub normal_texture: Option<TextureUse>,
+    pub occlusion_texture: Option<TextureUse>,
+    pub emissive_texture: Option<TextureUse>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(crate) struct MetallicRoughness {
+    pub base_color_texture: Option<TextureUse>,
+    pub metallic_roughness_texture: Option<TextureUse>,
+}
+
+/// A texture on a material.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct TextureUse {
+    /// The set of texture coordinates it is read at.
+    #[serde(rename = "texCoord")]
+    pub set: usize,
+    pub extensions: TextureUseExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(crate) struct TextureUseExtensions {
+    #[serde(rename = "KHR_texture_transform")]
+    pub transform: Option<TextureTransform>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub(crate) struct TextureTransform {
+    #[serde(default)]
+    pub offset: [f64; 2],
+    /// Counter-clockwise, in radians.
+    #[serde(default)]
+    pub rotation: f64,
+    #[serde(default = "unscaled")]
+    pub scale: [f64; 2],
+    /// The set of texture coordinates, in place of the texture's.
+    #[serde(rename = "texCoord")]
+    pub set: Option<usize>,
+}
+
+fn unscaled() -> [f64; 2] {
+    [1.0; 2]
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -49,12 +140,29 @@ pub(crate) struct Node {
     /// Quaternion x, y, z, w.
     pub rotation: Option<[f64; 4]>,
     pub scale: Option<[f64; 3]>,
-    pub extensions: BTreeMap<String, IgnoredAny>,
+    pub name: Option<String>,
+    pub extensions: NodeExtensions,
+    pub extras: Option<IgnoredAny>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(crate) struct NodeExtensions {
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    pub instancing: Option<Instancing>,
+}
+
+/// Copies of a node's mesh: an accessor each for their translations, rotations and scales.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Instancing {
+    #[serde(default)]
+    pub attributes: BTreeMap<String, usize>,
 }
 
 #[derive(Debug, Deserialize)]
 pub(crate) struct Mesh {
     pub primitives: Vec<Primitive>,
+    pub name: Option<String>,
+    pub extras: Option<IgnoredAny>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -66,6 +174,7 @@ pub(crate) struct Primitive {
     pub mode: u32,
     #[serde(default)]
     pub targets: Vec<IgnoredAny>,
+    pub material: Option<usize>,
     #[serde(default)]
     pub extensions: BTreeMap<String, IgnoredAny>,
 }
@@ -132,7 +241,48 @@ pub(crate) struct BufferView {
     pub byte_length: u64,
     pub byte_stride: Option<u64>,
     #[serde(default)]
-    pub extensions: BTreeMap<String, IgnoredAny>,
+    pub extensions: ViewExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(crate) struct ViewExtensions {
+    #[serde(rename = "EXT_meshopt_compression", alias = "KHR_meshopt_compression")]
+    pub compression: Option<Compression>,
+}
+
+/// Where the compressed bytes of a view are, and what they decode to.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Compression {
+    pub buffer: usize,
+    #[serde(default)]
+    pub byte_offset: u64,
+    pub byte_length: u64,
+    pub byte_stride: u64,
+    pub count: u64,
+    pub mode: Mode,
+    #[serde(default)]
+    pub filter: Filter,
+}
+
+/// What the compressed bytes hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub(crate) enum Mode {
+    Attributes,
+    Triangles,
+    Indices,
+}
+
+/// What is done to decoded attributes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub(crate) enum Filter {
+    #[default]
+    None,
+    Octahedral,
+    Quaternion,
+    Exponential,
 }
 
 #[derive(Debug, Deserialize)]

@@ -104,8 +104,8 @@ mod tests {
         assert_eq!(joined[0], bytes("color", 3, &[1, 2, 3, 255, 255, 255, 255, 255, 255]));
         assert_eq!(joined[1], bytes("label", 1, &[0, 7, 8]));
         let notes = [
-            "attribute \"color\" is absent at 2 vertices, now white there",
-            "attribute \"label\" is absent at 1 vertex, now zero there",
+            "attribute \"color\" is absent at 2 vertices and white there",
+            "attribute \"label\" is absent at 1 vertex and zero there",
         ];
         assert_eq!(report.notes(), notes);
     }

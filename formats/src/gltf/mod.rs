@@ -16,12 +16,16 @@ mod accessor;
 mod affine;
 mod buffers;
 mod container;
+mod declared;
 mod document;
+mod instancing;
 mod join;
+mod meshopt;
 mod names;
 mod primitive;
 mod read;
 mod scene;
+mod texcoords;
 mod write;
 
 pub(crate) use read::read;

@@ -2,11 +2,12 @@
 
 use super::accessor::{Elements, Source};
 use super::affine::{Affine, unit};
-use super::document::{POINTS, Primitive, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES};
+use super::document::{POINTS, Primitive, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES, TextureTransform};
 use super::names::attribute_name;
+use super::texcoords::{SetTransforms, set_number};
 use crate::coordinates::nearest_f32;
 use crate::error::{MeshError, Place};
-use crate::{Attribute, FileReport, Kind, ScalarType};
+use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// The positions of a primitive before its map is applied.
 ///
@@ -41,7 +42,8 @@ pub(crate) fn positions(
     Ok(points.collect())
 }
 
-/// Every attribute but the positions, normals and tangents turned with the map. Attributes that cannot be kept are noted.
+/// Every attribute but the positions: normals and tangents turned with the map, texture coordinates
+/// where the material's textures read them. Attributes that cannot be kept are noted.
 ///
 /// # Errors
 ///
@@ -49,7 +51,7 @@ pub(crate) fn positions(
 pub(crate) fn attributes(
     source: &Source<'_>,
     primitive: &Primitive,
-    map: &Affine,
+    (map, transforms): (&Affine, &SetTransforms),
     n_vertices: usize,
     report: &mut FileReport,
 ) -> Result<Vec<Attribute>, MeshError> {
@@ -74,10 +76,32 @@ pub(crate) fn attributes(
         } else {
             let id = report.named(Kind::Attribute, &name);
             report.keep(id);
-            attributes.push(attribute(name, &elements, map));
+            let read = match set_number(semantic).filter(|_| elements.n_components == 2) {
+                Some(set) => texcoords(name, &elements, transforms.get(set)),
+                None => attribute(name, &elements, map),
+            };
+            if set_number(semantic).is_some_and(|set| transforms.disputed.contains(&set)) {
+                let clause = "under the transform of the base colour's texture; other textures have others";
+                report.change(id, Change::Otherwise(clause.into()));
+            }
+            attributes.push(read);
         }
     }
     Ok(attributes)
+}
+
+/// A set of texture coordinates as the textures see it, in `f32` whatever the file's type.
+fn texcoords(name: String, elements: &Elements<'_>, transform: Option<&TextureTransform>) -> Attribute {
+    if transform.is_none() && elements.scalar == ScalarType::F32 {
+        let bytes = elements.bytes.to_vec();
+        return Attribute { name, scalar: ScalarType::F32, n_components: 2, bytes };
+    }
+    let values: Vec<f64> = elements.values().collect();
+    let moved = values.as_chunks().0.iter().flat_map(|&pair| match transform {
+        Some(transform) => transform.apply(pair),
+        None => pair,
+    });
+    Attribute::from_f32(name, 2, moved.map(nearest_f32))
 }
 
 fn attribute(name: String, elements: &Elements<'_>, map: &Affine) -> Attribute {

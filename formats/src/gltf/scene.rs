@@ -10,8 +10,8 @@ use crate::error::{MeshError, Place};
 pub(crate) struct Instance {
     pub mesh: usize,
     pub map: Affine,
-    /// The node has a skin, which would move the vertices.
-    pub has_skin: bool,
+    /// The node that shows it; `None` where the document has no nodes.
+    pub node: Option<usize>,
 }
 
 /// All meshes of the default scene, in the order of a depth-first walk: of scene 0 where no default is named, of all
@@ -23,7 +23,7 @@ pub(crate) struct Instance {
 /// [`MeshError::Unsupported`].
 pub(crate) fn instances(document: &Document) -> Result<Vec<Instance>, MeshError> {
     if document.nodes.is_empty() {
-        let of_mesh = |mesh| Instance { mesh, map: Affine::IDENTITY, has_skin: false };
+        let of_mesh = |mesh| Instance { mesh, map: Affine::IDENTITY, node: None };
         return Ok((0..document.meshes.len()).map(of_mesh).collect());
     }
     let mut instances = Vec::new();
@@ -37,12 +37,11 @@ pub(crate) fn instances(document: &Document) -> Result<Vec<Instance>, MeshError>
             let found = "a cycle or a second parent".into();
             return Err(MeshError::Unexpected { place, expected: "one way from the root", found });
         }
-        if node.extensions.contains_key("EXT_mesh_gpu_instancing") {
-            return Err(MeshError::Unsupported { place, feature: "EXT_mesh_gpu_instancing".into() });
-        }
         let map = outer.after(&Affine::of_node(node, place)?);
         if let Some(mesh) = node.mesh {
-            instances.push(Instance { mesh, map, has_skin: node.skin.is_some() });
+            // Bones place the vertices of a skinned mesh: the node's own map is ignored.
+            let map = if node.skin.is_some() { Affine::IDENTITY } else { map };
+            instances.push(Instance { mesh, map, node: Some(index) });
         }
         for &child in node.children.iter().rev() {
             get(&document.nodes, child, "node", place)?;

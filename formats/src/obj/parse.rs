@@ -13,6 +13,12 @@ pub(crate) const NONE: u32 = u32::MAX;
 #[derive(Default)]
 pub(crate) struct Statements {
     pub positions: Vec<[f64; 3]>,
+    /// Positions that are no numbers of `f32`, with their lines.
+    pub bad_places: Vec<(usize, Place)>,
+    /// Positions with a weight other than 1, which rational curves would use.
+    pub n_weights: u64,
+    /// Texture coordinates with a third number other than 0.
+    pub n_third_texcoords: u64,
     /// Empty, or one colour per position; white where the file gives none.
     pub colors: Vec<[f32; 4]>,
     pub n_colored: usize,
@@ -42,8 +48,7 @@ impl Statements {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Unexpected`], [`MeshError::NonFinite`], [`MeshError::CoordinateTooLarge`] or
-    /// [`MeshError::IndexOutOfRange`] with the line at fault.
+    /// [`MeshError::Unexpected`] or [`MeshError::IndexOutOfRange`] with the line at fault.
     pub(crate) fn parse(bytes: &[u8], report: &mut FileReport) -> Result<Self, MeshError> {
         let mut scanner = Scanner::new(bytes, Style { hash_comments: true, continued_lines: true });
         let mut statements = Self { n_color_components: 3, ..Self::default() };
@@ -102,9 +107,10 @@ impl Statements {
             return Err(scanner.unexpected("three coordinates", None));
         }
         let [x, y, z, color @ ..] = numbers;
-        for value in [x, y, z] {
-            check_coordinate(value, scanner.place())?;
+        if [x, y, z].iter().any(|&value| check_coordinate(value, scanner.place()).is_err()) {
+            self.bad_places.push((self.positions.len(), scanner.place()));
         }
+        self.n_weights += u64::from(n_numbers == 4 && color[0] != 1.0);
         if n_numbers >= 6 {
             self.colors.resize(self.positions.len(), [1.0; 4]);
             let alpha = if n_numbers == 7 { color[3] } else { 1.0 };
@@ -127,7 +133,10 @@ impl Statements {
             }
             None => 0.0,
         };
-        self.texcoords.push([nearest_f32(u), nearest_f32(v)]);
+        // OBJ counts V from the bottom.
+        self.texcoords.push([nearest_f32(u), nearest_f32(1.0 - v)]);
+        let third: Option<f64> = scanner.word_in_line().and_then(crate::text::parse_number);
+        self.n_third_texcoords += u64::from(third.is_some_and(|third| third != 0.0));
         Ok(())
     }
 

@@ -6,6 +6,8 @@ use super::parse::{NONE, Statements};
 use crate::coordinates::{Coordinates, from_text};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
+use crate::normals::{COMPUTED, smooth};
+use crate::unused::drop_bad_points;
 use crate::{Attribute, Change, FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads an OBJ file.
@@ -17,20 +19,72 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
     let mut report = FileReport::new(MeshFormat::Obj);
     let statements = Statements::parse(bytes, &mut report)?;
     let vertices = Vertices::number(&statements)?;
-    let Coordinates { origin, positions: listed, rounding } = from_text(&statements.positions)?;
-    let positions: Vec<[f32; 3]> = vertices.triples.iter().map(|triple| listed[triple[0] as usize]).collect();
     let mut faces = Faces::default();
     let mut start = 0;
     for &end in &statements.face_ends {
         faces.push(&vertices.of_corners[start..end]);
         start = end;
     }
+    note_further_numbers(&statements, &mut report);
+    let mut points: Vec<[f64; 3]> =
+        vertices.triples.iter().map(|triple| statements.positions[triple[0] as usize]).collect();
+    let mut attributes = attributes(&statements, &vertices, &mut report);
+    fill_normals(&points, &faces, &vertices, &mut attributes, &mut report);
+    let place_of = |vertex: usize| {
+        let position = vertices.triples[vertex][0] as usize;
+        let place = statements.bad_places.binary_search_by_key(&position, |&(position, _)| position);
+        place.map_or(Place::item("vertex", position), |at| statements.bad_places[at].1)
+    };
+    drop_bad_points(&mut points, &mut attributes, &mut faces.corners_mut(), &place_of, &mut report)?;
+    let Coordinates { origin, positions, rounding } = from_text(&points)?;
     let triangles = faces.into_triangles(&positions, &mut report);
     if triangles.is_empty() {
         return Err(MeshError::NoFaces { n_vertices: positions.len() });
     }
-    let attributes = attributes(&statements, &vertices, &mut report);
     Ok((TriangleMesh { origin, positions, triangles, attributes, rounding }, report))
+}
+
+/// Registers numbers behind those that are read.
+fn note_further_numbers(statements: &Statements, report: &mut FileReport) {
+    for (name, n, unit) in [
+        ("weight", statements.n_weights, "vertices"),
+        ("third texture coordinate", statements.n_third_texcoords, "lines"),
+    ] {
+        if n > 0 {
+            let id = report.found(Kind::Attribute, name);
+            report.grow(id, n, unit);
+        }
+    }
+}
+
+/// Computes the normals of vertices that have none where others have.
+fn fill_normals(
+    points: &[[f64; 3]],
+    faces: &Faces,
+    vertices: &Vertices,
+    attributes: &mut [Attribute],
+    report: &mut FileReport,
+) {
+    let Some(normal) = attributes.iter_mut().find(|attribute| attribute.name == "normal") else { return };
+    let lacks = |(vertex, triple): (usize, &[u32; 3])| {
+        triple[2] == NONE && vertices.is_used.get(vertex).is_none_or(|&is_used| is_used)
+    };
+    let n_vertices = vertices.triples.iter().enumerate().filter(|&pair| lacks(pair)).count() as u64;
+    if n_vertices == 0 {
+        return;
+    }
+    let normals = smooth(points, faces.fans());
+    for (vertex, (bytes, triple)) in
+        normal.bytes.as_chunks_mut::<12>().0.iter_mut().zip(&vertices.triples).enumerate()
+    {
+        if triple[2] == NONE {
+            for (bytes, value) in bytes.as_chunks_mut::<4>().0.iter_mut().zip(normals[vertex]) {
+                *bytes = value.to_le_bytes();
+            }
+        }
+    }
+    let id = report.named(Kind::Attribute, "normal");
+    report.change(id, Change::Filled { n_vertices, value: COMPUTED });
 }
 
 /// The mesh's vertices: distinct triples of position, texture coordinate and normal.
@@ -88,7 +142,7 @@ impl Vertices {
         if values.is_empty() {
             return None;
         }
-        let id = report.found(Kind::Attribute, name);
+        let id = report.named(Kind::Attribute, name);
         let n_given = self.triples.iter().filter(|triple| triple[list] != NONE).count();
         if n_given == 0 {
             report.leave_out(id, "no face uses it");
@@ -97,7 +151,7 @@ impl Vertices {
         report.keep(id);
         let n_unused = self.is_used.iter().filter(|&&is_used| !is_used).count();
         let n_vertices = self.triples.len() - n_unused - n_given;
-        if n_vertices > 0 {
+        if n_vertices > 0 && name != "normal" {
             report.change(id, Change::Filled { n_vertices: n_vertices as u64, value: "zero" });
         }
         let value = |triple: &[u32; 3]| values.get(triple[list] as usize).copied().unwrap_or(neutral);
@@ -176,7 +230,8 @@ mod tests {
         assert_eq!(mesh.triangles, [[0, 1, 2], [4, 2, 3], [4, 5, 3]]);
         assert_eq!(mesh.positions[4..], [mesh.positions[0], mesh.positions[1]]);
         let texcoord = floats(mesh.attribute("texcoord").unwrap());
-        assert_eq!(texcoord[8..], [0.5, 0.5, 0.0, 0.0]);
+        // V is counted from the bottom in the file.
+        assert_eq!(texcoord[8..], [0.5, 0.5, 0.0, 1.0]);
         assert!(report.notes().is_empty());
     }
 
@@ -188,7 +243,7 @@ mod tests {
             (color.n_components, floats(color)),
             (3, vec![1.0, 1.0, 1.0, 0.5, 0.25, 0.0, 1.0, 0.0, 0.0])
         );
-        assert_eq!(report.notes(), ["attribute \"color\" is absent at 1 vertex, now white there"]);
+        assert_eq!(report.notes(), ["attribute \"color\" is absent at 1 vertex and white there"]);
     }
 
     #[test]
@@ -241,7 +296,7 @@ mod tests {
             "line 5: expected a corner such as 1, 1/2, 1//3 or 1/2/3, found \"1/1/1/1\"",
         );
         check_error("v 1 2\nf 1 1 1\n", "line 1: expected three coordinates, found the end of the line");
-        check_error("\nv 1 inf 0\n", "line 2: coordinate inf is not finite");
+        check_error("\nv 1 inf 0\nf 1 1 1\n", "line 2: coordinate inf is not finite");
         check_error("v 1 x 0\n", "line 1: expected a number, found \"x\"");
         check_error(SQUARE, "no faces (4 vertices)");
         check_error("", "no faces (0 vertices)");

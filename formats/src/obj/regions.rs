@@ -29,7 +29,7 @@ impl Regions {
             b"g" => self.group = named(Kind::Group, scanner, report),
             b"o" => self.object = named(Kind::Object, scanner, report),
             b"s" => {
-                let name = rest_of_line(scanner);
+                let name = scanner.rest_of_line();
                 let is_off = name.is_empty() || name == "off" || name == "0";
                 self.smoothing = (!is_off).then(|| report.named(Kind::SmoothingGroup, &name));
             }
@@ -46,20 +46,8 @@ impl Regions {
 }
 
 fn named(kind: Kind, scanner: &mut Scanner<'_>, report: &mut FileReport) -> Option<ItemId> {
-    let name = rest_of_line(scanner);
+    let name = scanner.rest_of_line();
     (!name.is_empty()).then(|| report.named(kind, &name))
-}
-
-/// The words up to the end of the line: names may hold blanks.
-fn rest_of_line(scanner: &mut Scanner<'_>) -> String {
-    let mut name = String::new();
-    while let Some(word) = scanner.word_in_line() {
-        if !name.is_empty() {
-            name.push(' ');
-        }
-        name.push_str(&String::from_utf8_lossy(word));
-    }
-    name
 }
 
 fn n_words(scanner: &mut Scanner<'_>) -> u64 {

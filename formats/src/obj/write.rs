@@ -28,7 +28,12 @@ pub(crate) fn write(
         report.keep(id);
     }
     write_positions(mesh, color, out)?;
-    write_list("vt", texcoord, out)?;
+    if let Some(texcoord) = texcoord {
+        let mut texts = texcoord.texcoord_texts();
+        while let (Some(u), Some(v)) = (texts.next(), texts.next()) {
+            writeln!(out, "vt {u} {v}")?;
+        }
+    }
     write_list("vn", normal, out)?;
     for triangle in &mesh.triangles {
         out.write_all(b"f")?;

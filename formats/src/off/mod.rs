@@ -1,10 +1,15 @@
-//! OFF, the text format of Geomview (The Geometry Center, Minneapolis) with its per-vertex forms `NOFF`, `COFF` and `STOFF`.
+//! OFF, the format of Geomview (The Geometry Center, Minneapolis), text and binary, with its per-vertex
+//! forms: `N`, `C` and `ST` before the keyword for normals, colours and texture coordinates.
 //!
-//! One vertex and one face a line, as every program writes it. Colours after a face, and words after a vertex's own, are
-//! passed over. The forms with four or n coordinates and the binary one are refused: programs disagree about them.
+//! One vertex and one face a line, as every program writes it. The forms with four or n coordinates are
+//! refused: programs disagree about them. V of texture coordinates is counted from the bottom.
 
+mod binary;
+mod columns;
+mod keyword;
 mod read;
 mod write;
 
-pub(crate) use read::{Keyword, read};
+pub(crate) use keyword::Keyword;
+pub(crate) use read::read;
 pub(crate) use write::write;

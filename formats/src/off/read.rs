@@ -1,36 +1,21 @@
-//! OFF files.
+//! OFF files as text, and what they share with binary ones.
 
-use crate::coordinates::{Coordinates, from_text, nearest_f32};
+use super::binary;
+use super::columns::Columns;
+use super::keyword::Keyword;
+use crate::coordinates::{Coordinates, Points, check_coordinate};
 use crate::error::{MeshError, Place};
+use crate::face_colors::{FaceColors, from_unit};
 use crate::faces::Faces;
 use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::{Attribute, FileReport, Kind, MeshFormat, ScalarType, TriangleMesh};
+use crate::{Attribute, FileReport, Kind, MeshFormat, TriangleMesh};
 
-/// What the keyword at the beginning of a file says about its vertices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Keyword {
-    has_texcoords: bool,
-    has_colors: bool,
-    has_normals: bool,
-    /// Four or n coordinates instead of three.
-    has_other_dimension: bool,
-}
-
-impl Keyword {
-    /// Reads a keyword: `[ST][C][N][4][n]OFF`.
-    pub(crate) fn parse(word: &[u8]) -> Option<Self> {
-        let (has_texcoords, word) = strip(word, b"ST");
-        let (has_colors, word) = strip(word, b"C");
-        let (has_normals, word) = strip(word, b"N");
-        let (has_four, word) = strip(word, b"4");
-        let (has_n, word) = strip(word, b"n");
-        let has_other_dimension = has_four || has_n;
-        (word == b"OFF").then_some(Self { has_texcoords, has_colors, has_normals, has_other_dimension })
-    }
-}
-
-fn strip<'a>(word: &'a [u8], prefix: &[u8]) -> (bool, &'a [u8]) {
-    word.strip_prefix(prefix).map_or((false, word), |rest| (true, rest))
+/// The vertices of a file, and where those stand whose coordinates are no numbers of `f32`.
+pub(super) struct Vertices {
+    pub points: Points,
+    pub attributes: Vec<Attribute>,
+    /// Vertex and place, in the order of the vertices.
+    pub bad_places: Vec<(usize, Place)>,
 }
 
 /// Reads an OFF file; the keyword `OFF` may be missing, as its definition allows.
@@ -40,37 +25,49 @@ fn strip<'a>(word: &'a [u8], prefix: &[u8]) -> (bool, &'a [u8]) {
 /// Any [`MeshError`] about contents.
 pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError> {
     let mut scanner = Scanner::new(bytes, Style { hash_comments: true, continued_lines: false });
-    let mut report = FileReport::new(MeshFormat::Off);
     let mut word = scanner.word();
     let mut keyword = Keyword::default();
     if let Some(found) = word.and_then(Keyword::parse) {
         keyword = found;
         word = scanner.word();
     }
-    let unsupported =
-        |feature: &str| MeshError::Unsupported { place: Place::Line(1), feature: feature.into() };
     if keyword.has_other_dimension {
-        return Err(unsupported("OFF with other than three coordinates"));
+        let feature = "OFF with other than three coordinates".to_owned();
+        return Err(MeshError::Unsupported { place: Place::Line(1), feature });
     }
+    let mut report = FileReport::new(MeshFormat::Off);
     if word == Some(b"BINARY") {
-        return Err(unsupported("binary OFF"));
+        scanner.next_line();
+        let (vertices, faces) = binary::read(&scanner, keyword, &mut report)?;
+        return assemble(vertices, faces, report);
     }
     let n_vertices = count(&scanner, word, "vertices")?;
     let word = scanner.word();
     let n_faces = count(&scanner, word, "faces")?;
     // The number of edges means nothing to anybody and is sometimes missing.
     scanner.next_line();
-    let (Coordinates { origin, positions, rounding }, attributes) =
-        vertices(&mut scanner, keyword, n_vertices)?;
-    for attribute in &attributes {
-        let id = report.found(Kind::Attribute, &attribute.name);
-        report.keep(id);
-    }
-    let triangles =
-        faces(&mut scanner, n_faces, n_vertices, &mut report)?.into_triangles(&positions, &mut report);
+    let vertices = vertices(&mut scanner, keyword, n_vertices, &mut report)?;
+    let faces = faces(&mut scanner, n_faces, n_vertices, &mut report)?;
     if let Some(word) = scanner.word() {
         report.count(Kind::TrailingByte, (word.len() + scanner.n_bytes_left()) as u64);
     }
+    assemble(vertices, faces, report)
+}
+
+/// Puts the parts of a mesh together.
+fn assemble(
+    vertices: Vertices,
+    mut faces: Faces,
+    mut report: FileReport,
+) -> Result<(TriangleMesh, FileReport), MeshError> {
+    let Vertices { mut points, mut attributes, bad_places } = vertices;
+    let place_of = |vertex: usize| {
+        let place = bad_places.binary_search_by_key(&vertex, |&(vertex, _)| vertex);
+        place.map_or(Place::item("vertex", vertex), |at| bad_places[at].1)
+    };
+    points.drop_bad(&mut attributes, &mut faces.corners_mut(), &place_of, &mut report)?;
+    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
+    let triangles = faces.into_triangles(&positions, &mut report);
     if triangles.is_empty() {
         return Err(MeshError::NoFaces { n_vertices: positions.len() });
     }
@@ -90,70 +87,56 @@ fn vertices(
     scanner: &mut Scanner<'_>,
     keyword: Keyword,
     n_vertices: u32,
-) -> Result<(Coordinates, Vec<Attribute>), MeshError> {
-    let n_color_components = if keyword.has_colors { color_components(scanner, keyword) } else { 0 };
-    let n_extras =
-        3 * usize::from(keyword.has_normals) + n_color_components + 2 * usize::from(keyword.has_texcoords);
+    report: &mut FileReport,
+) -> Result<Vertices, MeshError> {
+    let n_columns = n_columns(scanner, keyword);
     let mut points = Vec::with_capacity(n_vertices as usize);
-    let mut extras: Vec<f64> = Vec::new();
-    let mut has_whole_colors = true;
-    let color_range = 3 * usize::from(keyword.has_normals)..n_extras - 2 * usize::from(keyword.has_texcoords);
+    let mut bad_places = Vec::new();
+    let mut columns = Columns::new(n_columns);
+    let mut n_lines_cut = 0;
     for found in 0..n_vertices {
         check_more(scanner, "vertices", n_vertices, found)?;
-        points.push(scanner.point()?);
-        for i in 0..n_extras {
-            let word = scanner.word();
-            let value = word.and_then(parse_number).ok_or_else(|| scanner.unexpected("a number", word))?;
-            if color_range.contains(&i) {
-                has_whole_colors &= word.is_some_and(is_byte);
-            }
-            extras.push(value);
+        let point = [scanner.number()?, scanner.number()?, scanner.number()?];
+        if point.iter().any(|&value| check_coordinate(value, scanner.place()).is_err()) {
+            bad_places.push((points.len(), scanner.place()));
         }
+        points.push(point);
+        for column in 0..n_columns {
+            // Only what the keyword announces may go on in the next line.
+            let word = if keyword.is_plain() { scanner.word_in_line() } else { scanner.word() };
+            if word.is_none() && keyword.is_plain() {
+                columns.push_missing(column);
+                continue;
+            }
+            let value = word.and_then(parse_number).ok_or_else(|| scanner.unexpected("a number", word))?;
+            columns.push(column, value, word.is_some_and(|word| word.iter().all(u8::is_ascii_digit)));
+        }
+        n_lines_cut += u64::from(scanner.word_in_line().is_some());
         scanner.next_line();
     }
-    let column = |range: std::ops::Range<usize>| {
-        extras.chunks_exact(n_extras.max(1)).flat_map(move |values| values[range.clone()].iter().copied())
-    };
-    let mut attributes = Vec::new();
-    if keyword.has_normals {
-        attributes.push(Attribute::from_f32("normal", 3, column(0..3).map(nearest_f32)));
+    if n_lines_cut > 0 {
+        report.remark(format!("the rest of {n_lines_cut} lines of vertices is left out"));
     }
-    if keyword.has_colors {
-        attributes.push(color(n_color_components, has_whole_colors, column(color_range)));
-    }
-    if keyword.has_texcoords {
-        attributes.push(Attribute::from_f32("texcoord", 2, column(n_extras - 2..n_extras).map(nearest_f32)));
-    }
-    Ok((from_text(&points)?, attributes))
+    let attributes = columns.into_attributes(keyword, report);
+    Ok(Vertices { points: Points::Text(points), attributes, bad_places })
 }
 
-/// Components of the colours, told by the number of words in the first vertex's line: three where there is no fourth.
-fn color_components(scanner: &Scanner<'_>, keyword: Keyword) -> usize {
+/// Numbers behind the coordinates of each vertex: as many as the keyword announces, with colours of
+/// three or four by the first line; under a plain keyword those of the first line, 4 at most.
+fn n_columns(scanner: &Scanner<'_>, keyword: Keyword) -> usize {
     let mut line = scanner.clone();
-    let n_others = 3 + 3 * usize::from(keyword.has_normals) + 2 * usize::from(keyword.has_texcoords);
     let first = usize::from(line.word().is_some());
-    let n_words = first + std::iter::from_fn(|| line.word_in_line()).take(n_others + 4).count();
-    if n_words == n_others + 3 { 3 } else { 4 }
-}
-
-/// Whether a word is a whole number from 0 to 255 without a point: the sign of colours in bytes.
-fn is_byte(word: &[u8]) -> bool {
-    word.iter().all(u8::is_ascii_digit) && parse_integer(word).is_some_and(|value| value <= 255)
-}
-
-/// Colours as bytes where every component of the file is one, as `f32` otherwise.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the values are whole, from 0 to 255"
-)]
-fn color(n_components: usize, is_whole: bool, values: impl Iterator<Item = f64>) -> Attribute {
-    let n_components = if n_components == 3 { 3 } else { 4 };
-    if is_whole {
-        let bytes = values.map(|value| value as u8).collect();
-        return Attribute { name: "color".into(), scalar: ScalarType::U8, n_components, bytes };
+    let n_others = keyword.n_columns_without_colors();
+    let n_words = first + std::iter::from_fn(|| line.word_in_line()).take(3 + n_others + 4).count();
+    match keyword {
+        _ if keyword.is_plain() => match n_words {
+            6 | 7 => n_words - 3,
+            _ => 0,
+        },
+        _ if !keyword.has_colors => n_others,
+        _ if n_words == 3 + n_others + 3 => n_others + 3,
+        _ => n_others + 4,
     }
-    Attribute::from_f32("color", n_components, values.map(nearest_f32))
 }
 
 fn faces(
@@ -164,7 +147,8 @@ fn faces(
 ) -> Result<Faces, MeshError> {
     let mut faces = Faces::default();
     let mut corners: Vec<u32> = Vec::new();
-    let mut n_colored = 0;
+    let mut colors = FaceColors::default();
+    let mut n_indexed = 0;
     for found in 0..n_faces {
         check_more(scanner, "faces", n_faces, found)?;
         let word = scanner.word();
@@ -183,15 +167,48 @@ fn faces(
             let (place, count) = (scanner.place(), n_vertices.into());
             corners.push(valid.ok_or(MeshError::IndexOutOfRange { place, what: "vertex", index, count })?);
         }
-        n_colored += u64::from(scanner.word_in_line().is_some());
+        let n_triangles = corners.len().saturating_sub(2) as u64;
+        match face_color(scanner) {
+            FaceColor::None => {}
+            FaceColor::Indexed => n_indexed += n_triangles,
+            FaceColor::Known(color) => colors.add(color, n_triangles),
+        }
         scanner.next_line();
         faces.push(&corners);
     }
-    if n_colored > 0 {
+    colors.register(report);
+    if n_indexed > 0 {
         let id = report.found(Kind::FaceData, "color");
-        report.grow(id, n_colored, "faces");
+        report.grow(id, n_indexed, "triangles");
     }
     Ok(faces)
+}
+
+/// What stands behind the corners of a face.
+enum FaceColor {
+    None,
+    /// An index into a table of colours, or anything else that is no colour.
+    Indexed,
+    Known([u8; 4]),
+}
+
+/// The rest of a face's line: three or four numbers, in bytes where all are whole.
+fn face_color(scanner: &mut Scanner<'_>) -> FaceColor {
+    let mut values = [0.0; 4];
+    let mut n_values = 0;
+    let mut is_whole = true;
+    while let Some(word) = scanner.word_in_line().filter(|_| n_values < 4) {
+        let Some(value) = parse_number(word) else { return FaceColor::Indexed };
+        is_whole &= word.iter().all(u8::is_ascii_digit);
+        values[n_values] = value;
+        n_values += 1;
+    }
+    let largest = if is_whole { 255.0 } else { 1.0 };
+    match n_values {
+        0 => FaceColor::None,
+        3 | 4 => FaceColor::Known(from_unit(&values.map(|value| value / largest)[..n_values])),
+        _ => FaceColor::Indexed,
+    }
 }
 
 fn check_more(scanner: &Scanner<'_>, what: &'static str, expected: u32, found: u32) -> Result<(), MeshError> {
@@ -204,6 +221,7 @@ fn check_more(scanner: &Scanner<'_>, what: &'static str, expected: u32, found: u
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ScalarType;
 
     const SQUARE: &str = "OFF # a square\n#\n4 1 0\n0 0 0\n1 0 0 # here\n1 1 0\n\n0 1 0\n4 0 1 2 3\n";
 
@@ -236,9 +254,10 @@ mod tests {
         let color = mesh.attribute("color").unwrap();
         assert_eq!((color.n_components, color.bytes.as_slice()), (3, &[255, 0, 9, 1, 2, 3, 4, 5, 6][..]));
         let texcoord: Vec<f64> = mesh.attribute("texcoord").unwrap().values().collect();
-        assert_eq!(texcoord, [0.5, 0.25, 0.0, 0.0, 1.0, 1.0]);
+        // V is counted from the bottom in the file.
+        assert_eq!(texcoord, [0.5, 0.75, 0.0, 1.0, 1.0, 0.0]);
         assert_eq!(mesh.attribute("normal").unwrap().values().nth(2), Some(1.0));
-        assert_eq!(report.notes(), ["face data \"color\" (1 face) is left out"]);
+        assert_eq!(report.notes(), ["face colour \"#070809\" (1 triangle) is left out"]);
     }
 
     #[test]
@@ -251,7 +270,6 @@ mod tests {
 
     #[test]
     fn other_forms_are_refused() {
-        check_error("OFF BINARY\n\0\0\0\u{1}", "line 1: binary OFF is not supported");
         check_error("4OFF\n1 1 1\n", "line 1: OFF with other than three coordinates is not supported");
         check_error("nOFF\n3\n1 1 1\n", "line 1: OFF with other than three coordinates is not supported");
     }

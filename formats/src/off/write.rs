@@ -34,7 +34,7 @@ pub(crate) fn write(
     writeln!(out, "{keyword}OFF\n{} {} 0", mesh.positions.len(), mesh.triangles.len())?;
     let mut normals = normal.into_iter().flat_map(Attribute::values);
     let mut colors = color.map(Colors::new);
-    let mut texcoords = texcoord.into_iter().flat_map(Attribute::values);
+    let mut texcoords = texcoord.into_iter().flat_map(Attribute::texcoord_texts);
     let is_shifted = mesh.origin != [0.0; 3];
     for position in &mesh.positions {
         for (axis, (origin, coordinate)) in mesh.origin.iter().zip(position).enumerate() {
@@ -51,8 +51,8 @@ pub(crate) fn write(
         if let Some(colors) = &mut colors {
             colors.write_next(out)?;
         }
-        for value in texcoords.by_ref().take(2) {
-            write!(out, " {:?}", nearest_f32(value))?;
+        for text in texcoords.by_ref().take(2) {
+            write!(out, " {text}")?;
         }
         out.write_all(b"\n")?;
     }

@@ -1,27 +1,32 @@
 //! Values of a PLY file as bytes of either order.
 
+use super::face::{Record, Wanted};
 use super::header::{Element, Encoding, PropertyKind};
 use super::read::{Values, Visit, check_index};
 use super::vertices::{
-    Field, Records, coordinate_properties, packed_fields, scalar_value, take_apart, value_bytes,
+    Field, Records, Vertices, coordinate_properties, packed_fields, scalar_value, take_apart, value_bytes,
 };
-use crate::coordinates::Coordinates;
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
-use crate::{Attribute, FileReport, ScalarType};
+use crate::{FileReport, ScalarType};
 
 /// The bytes after the header.
 pub(crate) struct Binary<'a> {
     bytes: &'a [u8],
     at: usize,
     is_big_endian: bool,
-    items: Vec<i64>,
+    record: Record,
 }
 
 impl<'a> Binary<'a> {
     /// Starts after the header.
     pub(crate) fn new(bytes: &'a [u8], data_start: usize, encoding: Encoding) -> Self {
-        Self { bytes, at: data_start, is_big_endian: encoding == Encoding::BigEndian, items: Vec::new() }
+        Self {
+            bytes,
+            at: data_start,
+            is_big_endian: encoding == Encoding::BigEndian,
+            record: Record::default(),
+        }
     }
 
     /// The next `n_bytes` bytes.
@@ -63,27 +68,36 @@ impl<'a> Binary<'a> {
         self.take(n_items.saturating_mul(item.size_bytes() as u64), "list")
     }
 
-    /// Passes a record and leaves the list number `list` in `items`.
-    fn record(&mut self, element: &Element, list: Option<usize>) -> Result<(), MeshError> {
+    /// Passes a record and leaves what is wanted of it in `record`.
+    fn record(&mut self, element: &Element, wanted: Option<&Wanted>) -> Result<(), MeshError> {
+        let is_big_endian = self.is_big_endian;
+        self.record.clear();
         for (place, property) in element.properties.iter().enumerate() {
             match property.kind {
                 PropertyKind::Scalar(scalar) => {
-                    self.take(scalar.size_bytes() as u64, "record")?;
+                    let bytes = self.take(scalar.size_bytes() as u64, "record")?;
+                    if wanted.is_some_and(|wanted| wanted.colors.contains(&place)) {
+                        let value = scalar_value(bytes, Field { offset: 0, scalar }, is_big_endian);
+                        self.record.colors.push(value);
+                    }
                 }
                 PropertyKind::List { count, item } => {
                     let start = self.at + count.size_bytes();
                     let bytes = self.list(count, item)?;
-                    if list != Some(place) {
-                        continue;
-                    }
-                    self.items.clear();
-                    for (i, bytes) in bytes.chunks_exact(item.size_bytes()).enumerate() {
-                        let index = integer(bytes, item, self.is_big_endian);
-                        self.items.push(index.ok_or_else(|| MeshError::Unexpected {
-                            place: Place::byte(start + i * item.size_bytes()),
-                            expected: "an index",
-                            found: "a fraction".into(),
-                        })?);
+                    let values = bytes.chunks_exact(item.size_bytes());
+                    if wanted.is_some_and(|wanted| wanted.texcoords == Some(place)) {
+                        let field = Field { offset: 0, scalar: item };
+                        let values = values.map(|bytes| scalar_value(bytes, field, is_big_endian));
+                        self.record.texcoords.extend(values);
+                    } else if wanted.is_some_and(|wanted| wanted.indices == place) {
+                        for (i, bytes) in values.enumerate() {
+                            let index = integer(bytes, item, is_big_endian);
+                            self.record.indices.push(index.ok_or_else(|| MeshError::Unexpected {
+                                place: Place::byte(start + i * item.size_bytes()),
+                                expected: "an index",
+                                found: "a fraction".into(),
+                            })?);
+                        }
                     }
                 }
             }
@@ -94,11 +108,7 @@ impl<'a> Binary<'a> {
 
 impl Values for Binary<'_> {
     /// Takes records of one length where they are; copies the scalars out of those that hold lists.
-    fn vertices(
-        &mut self,
-        element: &Element,
-        report: &mut FileReport,
-    ) -> Result<(Coordinates, Vec<Attribute>), MeshError> {
+    fn vertices(&mut self, element: &Element, report: &mut FileReport) -> Result<Vertices, MeshError> {
         coordinate_properties(element)?;
         self.check_count(element, "vertex data")?;
         let is_big_endian = self.is_big_endian;
@@ -127,12 +137,17 @@ impl Values for Binary<'_> {
         take_apart(&records, element, report)
     }
 
-    fn lists(&mut self, element: &Element, list: usize, visit: &mut Visit<'_>) -> Result<(), MeshError> {
+    fn records(
+        &mut self,
+        element: &Element,
+        wanted: &Wanted,
+        visit: &mut Visit<'_>,
+    ) -> Result<(), MeshError> {
         self.check_count(element, "face data")?;
         for _ in 0..element.count {
             let place = Place::byte(self.at);
-            self.record(element, Some(list))?;
-            visit(place, &self.items)?;
+            self.record(element, Some(wanted))?;
+            visit(place, &self.record)?;
         }
         Ok(())
     }
@@ -141,7 +156,7 @@ impl Values for Binary<'_> {
     fn faces(
         &mut self,
         element: &Element,
-        list: usize,
+        wanted: &Wanted,
         n_vertices: u32,
         faces: &mut Faces,
     ) -> Result<(), MeshError> {
@@ -167,9 +182,9 @@ impl Values for Binary<'_> {
                 }
             }
             let place = Place::byte(self.at);
-            self.record(element, Some(list))?;
+            self.record(element, Some(wanted))?;
             corners.clear();
-            for &index in &self.items {
+            for &index in &self.record.indices {
                 corners.push(check_index(index, n_vertices, place)?);
             }
             faces.push(&corners);

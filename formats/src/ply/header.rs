@@ -2,14 +2,19 @@
 
 use crate::ScalarType;
 use crate::error::{MeshError, Place, excerpt};
+use crate::text::BYTE_ORDER_MARK;
 
 /// What the header declares.
 #[derive(Debug)]
 pub(crate) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
+    /// Files of pictures, which MeshLab names in comments.
+    pub textures: Vec<String>,
     /// Offset of the first byte after the header.
     pub data_start: usize,
+    /// Bytes of the whole file.
+    pub n_bytes: usize,
     /// Lines that the header takes.
     pub n_lines: u64,
 }
@@ -73,14 +78,16 @@ impl Header {
     ///
     /// [`MeshError::Unexpected`] for a line that is none of the format's.
     pub(crate) fn parse(bytes: &[u8]) -> Result<Self, MeshError> {
-        let mut lines = Lines { bytes, at: 0, n_lines: 0, lone_cr: false };
+        let start = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        let mut lines = Lines { bytes, at: start, n_lines: 0, lone_cr: false };
         let magic = lines.next_line();
         if magic != Some(b"ply") {
             return Err(lines.unexpected("the line \"ply\"", magic));
         }
-        lines.lone_cr = bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n');
+        lines.lone_cr = bytes.get(start + 3) == Some(&b'\r') && bytes.get(start + 4) != Some(&b'\n');
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        let mut textures = Vec::new();
         loop {
             let line = lines.next_line();
             let words: Vec<&[u8]> = line
@@ -89,6 +96,7 @@ impl Header {
                 .filter(|word| !word.is_empty())
                 .collect();
             match words[..] {
+                [b"comment", b"TextureFile", ref name @ ..] => textures.push(text(&name.join(&b' '))),
                 [] | [b"comment" | b"obj_info", ..] => {}
                 [b"format", name, ..] => encoding = Some(lines.encoding(name)?),
                 [b"element", name, count] => {
@@ -110,7 +118,14 @@ impl Header {
         }
         let encoding = encoding
             .ok_or(MeshError::Missing { place: Place::Line(lines.n_lines), what: "format line before it" })?;
-        Ok(Self { encoding, elements, data_start: lines.at, n_lines: lines.n_lines })
+        Ok(Self {
+            encoding,
+            elements,
+            textures,
+            data_start: lines.at,
+            n_bytes: bytes.len(),
+            n_lines: lines.n_lines,
+        })
     }
 }
 

@@ -7,6 +7,8 @@
 //! lists `vertex_indices` or `vertex_index` of the elements `face` and `tristrips` (a negative index starts a new strip).
 
 mod binary;
+mod corners;
+mod face;
 mod header;
 mod names;
 mod read;

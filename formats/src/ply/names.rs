@@ -50,7 +50,10 @@ pub(crate) fn plan_attributes(vertex: &Element, coordinates: [usize; 3]) -> Vec<
             continue;
         };
         let scalar = found[0].1;
-        let is_free = found.iter().all(|&(place, other)| other == scalar && !is_used[place]);
+        // Whole numbers are no fractions of a picture.
+        let is_float = matches!(scalar, ScalarType::F32 | ScalarType::F64);
+        let has_type = name != "texcoord" || is_float;
+        let is_free = found.iter().all(|&(place, other)| other == scalar && !is_used[place]) && has_type;
         if is_free && !plans.iter().any(|plan| plan.name == name) {
             let properties: Vec<usize> = found.iter().map(|&(place, _)| place).collect();
             properties.iter().for_each(|&place| is_used[place] = true);

@@ -1,12 +1,16 @@
 //! The elements of a PLY file, one after another, made into a mesh.
 
 use super::binary::Binary;
-use super::header::{Element, Encoding, Header, PropertyKind};
+use super::corners::CornerTexcoords;
+use super::face::{Record, Wanted};
+use super::header::{Element, Encoding, Header};
 use super::text::{Layout, Text};
+use super::vertices::Vertices;
 use crate::coordinates::Coordinates;
 use crate::error::{MeshError, Place};
+use crate::face_colors::FaceColors;
 use crate::faces::Faces;
-use crate::{Attribute, FileReport, Kind, MeshFormat, TriangleMesh};
+use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads a PLY file.
 ///
@@ -30,29 +34,23 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
 /// The values after a header, as text or as bytes; elements are taken from it in the header's order.
 pub(crate) trait Values {
     /// Positions and attributes from the vertex element.
-    fn vertices(
-        &mut self,
-        element: &Element,
-        report: &mut FileReport,
-    ) -> Result<(Coordinates, Vec<Attribute>), MeshError>;
+    fn vertices(&mut self, element: &Element, report: &mut FileReport) -> Result<Vertices, MeshError>;
 
-    /// Calls `visit` with the place and the values of the list property number `list` of every record.
-    fn lists(&mut self, element: &Element, list: usize, visit: &mut Visit<'_>) -> Result<(), MeshError>;
+    /// Calls `visit` with the place and the wanted values of every record.
+    fn records(&mut self, element: &Element, wanted: &Wanted, visit: &mut Visit<'_>)
+    -> Result<(), MeshError>;
 
-    /// As `lists`, for faces: adds them to `faces`, every index below `n_vertices`.
+    /// Adds faces that have nothing but indices, every index below `n_vertices`.
     fn faces(
         &mut self,
         element: &Element,
-        list: usize,
+        wanted: &Wanted,
         n_vertices: u32,
         faces: &mut Faces,
     ) -> Result<(), MeshError> {
         let mut corners = Vec::new();
-        self.lists(element, list, &mut |place, indices| {
-            corners.clear();
-            for &index in indices {
-                corners.push(check_index(index, n_vertices, place)?);
-            }
+        self.records(element, wanted, &mut |place, record| {
+            check_indices(&record.indices, n_vertices, place, &mut corners)?;
             faces.push(&corners);
             Ok(())
         })
@@ -70,26 +68,38 @@ pub(crate) trait Values {
     fn n_trailing_bytes(&mut self) -> usize;
 }
 
-/// What is called with each list.
-pub(crate) type Visit<'a> = dyn FnMut(Place, &[i64]) -> Result<(), MeshError> + 'a;
+/// What is called with each record.
+pub(crate) type Visit<'a> = dyn FnMut(Place, &Record) -> Result<(), MeshError> + 'a;
 
 fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMesh, FileReport), MeshError> {
     let mut report = FileReport::new(MeshFormat::Ply);
     let n_vertices = n_vertices(header)?;
+    for texture in &header.textures {
+        report.named(Kind::Texture, texture);
+    }
     let mut vertices = None;
     let mut faces = Faces::default();
+    let mut texcoords = None;
     for element in &header.elements {
         match element.name.as_str() {
-            "vertex" if vertices.is_none() => vertices = Some(values.vertices(element, &mut report)?),
-            "face" if element.count > 0 => {
-                let list = index_list(element, "face element")?;
-                note_face_data(element, list, &mut report);
-                values.faces(element, list, n_vertices, &mut faces)?;
+            "vertex" | "vertices" if vertices.is_none() => {
+                vertices = Some(values.vertices(element, &mut report)?);
+            }
+            "face" | "faces" if element.count > 0 => {
+                let wanted = Wanted::of_faces(element)?;
+                note_face_data(element, &wanted, &mut report);
+                if wanted.texcoords.is_some() || !wanted.colors.is_empty() {
+                    check_vertices_fit(header, n_vertices)?;
+                    let into = (&mut faces, &mut texcoords);
+                    dressed_faces(&mut values, (element, &wanted), n_vertices, into, &mut report)?;
+                } else {
+                    values.faces(element, &wanted, n_vertices, &mut faces)?;
+                }
             }
             "tristrips" if element.count > 0 => {
-                let list = index_list(element, "tristrips element")?;
-                values.lists(element, list, &mut |place, indices| {
-                    add_strips(place, indices, n_vertices, &mut faces)
+                let wanted = Wanted::indices_of(element, "tristrips element")?;
+                values.records(element, &wanted, &mut |place, record| {
+                    add_strips(place, &record.indices, n_vertices, &mut faces)
                 })?;
             }
             _ => {
@@ -105,8 +115,28 @@ fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMe
             .remark(format!("the rest of {n_lines} lines is left out: it is more than the header declares"));
     }
     report.count(Kind::TrailingByte, values.n_trailing_bytes() as u64);
-    let (Coordinates { origin, positions, rounding }, attributes) =
+    let vertices =
         vertices.ok_or(MeshError::Missing { place: Place::Part("header"), what: "vertex element" })?;
+    assemble(vertices, faces, texcoords, report)
+}
+
+/// Puts the parts of a mesh together.
+fn assemble(
+    vertices: Vertices,
+    mut faces: Faces,
+    texcoords: Option<CornerTexcoords>,
+    mut report: FileReport,
+) -> Result<(TriangleMesh, FileReport), MeshError> {
+    let Vertices { mut points, mut attributes, bad_places } = vertices;
+    if let Some(texcoords) = texcoords {
+        texcoords.finish(&mut points, &mut attributes, &mut report);
+    }
+    let place_of = |vertex: usize| {
+        let place = bad_places.binary_search_by_key(&vertex, |&(vertex, _)| vertex);
+        place.map_or(Place::item("vertex", vertex), |at| bad_places[at].1)
+    };
+    points.drop_bad(&mut attributes, &mut faces.corners_mut(), &place_of, &mut report)?;
+    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
     let triangles = faces.into_triangles(&positions, &mut report);
     if triangles.is_empty() {
         return Err(MeshError::NoFaces { n_vertices: positions.len() });
@@ -116,7 +146,8 @@ fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMe
 
 /// Number of vertices that the header announces, known before any face is read.
 fn n_vertices(header: &Header) -> Result<u32, MeshError> {
-    let vertex = header.elements.iter().find(|element| element.name == "vertex");
+    let vertex =
+        header.elements.iter().find(|element| matches!(element.name.as_str(), "vertex" | "vertices"));
     let count =
         vertex.ok_or(MeshError::Missing { place: Place::Part("header"), what: "vertex element" })?.count;
     let limit = u64::from(u32::MAX);
@@ -124,21 +155,48 @@ fn n_vertices(header: &Header) -> Result<u32, MeshError> {
     u32::try_from(count).map_err(|_| too_large)
 }
 
-/// Place of the list of vertex indices among an element's properties.
-fn index_list(element: &Element, part: &'static str) -> Result<usize, MeshError> {
-    let place = element.properties.iter().position(|property| {
-        matches!(property.kind, PropertyKind::List { .. })
-            && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
-    });
-    place.ok_or(MeshError::Missing { place: Place::Part(part), what: "list vertex_indices" })
+/// Refuses a number of vertices that the file has no room for, where they come behind the faces.
+fn check_vertices_fit(header: &Header, n_vertices: u32) -> Result<(), MeshError> {
+    let (count, limit) = (u64::from(n_vertices), header.n_bytes as u64);
+    let place = Place::Part("header");
+    if count > limit {
+        return Err(MeshError::CountTooLarge { place, what: "vertices", count, limit });
+    }
+    Ok(())
 }
 
 /// Names the properties of faces that are not read.
-fn note_face_data(element: &Element, list: usize, report: &mut FileReport) {
-    for (_, property) in element.properties.iter().enumerate().filter(|&(place, _)| place != list) {
+fn note_face_data(element: &Element, wanted: &Wanted, report: &mut FileReport) {
+    for (_, property) in element.properties.iter().enumerate().filter(|&(place, _)| !wanted.has(place)) {
         let id = report.named(Kind::FaceData, &property.name);
         report.grow(id, element.count, "faces");
     }
+}
+
+/// Adds faces that have texture coordinates at their corners, or colours, which are counted.
+fn dressed_faces(
+    values: &mut impl Values,
+    (element, wanted): (&Element, &Wanted),
+    n_vertices: u32,
+    (faces, texcoords): (&mut Faces, &mut Option<CornerTexcoords>),
+    report: &mut FileReport,
+) -> Result<(), MeshError> {
+    let mut colors = FaceColors::default();
+    let mut corners = Vec::new();
+    values.records(element, wanted, &mut |place, record| {
+        check_indices(&record.indices, n_vertices, place, &mut corners)?;
+        if wanted.texcoords.is_some() {
+            let texcoords = texcoords.get_or_insert_with(|| CornerTexcoords::new(n_vertices));
+            texcoords.apply(&mut corners, &record.texcoords, place)?;
+        }
+        if !wanted.colors.is_empty() {
+            colors.add(wanted.color(record), corners.len().saturating_sub(2) as u64);
+        }
+        faces.push(&corners);
+        Ok(())
+    })?;
+    colors.register(report);
+    Ok(())
 }
 
 /// Adds the strips of one list, which negative indices (also written as the largest unsigned one) separate.
@@ -150,6 +208,20 @@ fn add_strips(place: Place, indices: &[i64], n_vertices: u32, faces: &mut Faces)
             strip.push(check_index(index, n_vertices, place)?);
         }
         faces.push_strip(&strip);
+    }
+    Ok(())
+}
+
+/// Indices as they are stored, if all point at vertices.
+fn check_indices(
+    indices: &[i64],
+    n_vertices: u32,
+    place: Place,
+    corners: &mut Vec<u32>,
+) -> Result<(), MeshError> {
+    corners.clear();
+    for &index in indices {
+        corners.push(check_index(index, n_vertices, place)?);
     }
     Ok(())
 }

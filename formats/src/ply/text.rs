@@ -3,22 +3,31 @@
 //! Some programs write more values than their header declares. Such a file makes no sense word by word, but does where every
 //! record takes a line and the rest of the line is passed over; it is read so in a second try.
 
+use super::face::{Record, Wanted};
 use super::header::{Element, Header, PropertyKind};
 use super::read::{Values, Visit};
-use super::vertices::{Field, Records, coordinate_properties, packed_fields, take_apart};
-use crate::coordinates::{Coordinates, check_coordinate, nearest_f32};
+use super::vertices::{Field, Records, Vertices, coordinate_properties, packed_fields, take_apart};
+use crate::coordinates::{check_coordinate, nearest_f32};
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::{Attribute, FileReport, ScalarType};
+use crate::{FileReport, ScalarType};
 
 /// The words after the header.
 pub(crate) struct Text<'a> {
     scanner: Scanner<'a>,
-    items: Vec<i64>,
+    record: Record,
     layout: Layout,
     n_lines_cut: usize,
     /// Where the record last passed ends.
     record_place: Place,
+}
+
+/// What the items of a list are read as.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    Nothing,
+    Indices,
+    Texcoords,
 }
 
 /// How records lie in the text.
@@ -34,7 +43,7 @@ impl<'a> Text<'a> {
     /// Starts after the header.
     pub(crate) fn new(bytes: &'a [u8], header: &Header, layout: Layout) -> Self {
         let scanner = Scanner::new_at(bytes, header.data_start, header.n_lines + 1, Style::default());
-        Self { scanner, items: Vec::new(), layout, n_lines_cut: 0, record_place: Place::File }
+        Self { scanner, record: Record::default(), layout, n_lines_cut: 0, record_place: Place::File }
     }
 
     /// Passes over what a line holds beyond its record.
@@ -55,31 +64,51 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Passes a list and leaves its items in `items` where they are wanted as integers.
-    fn list(&mut self, is_wanted: bool) -> Result<Option<()>, MeshError> {
+    /// Passes a list; `None` where the text ends inside it.
+    fn list(&mut self, purpose: Purpose) -> Result<Option<()>, MeshError> {
         let Some(word) = self.scanner.word() else { return Ok(None) };
         let count = parse_integer(word).and_then(|count| u64::try_from(count).ok());
         let count = count.ok_or_else(|| self.scanner.unexpected("the length of a list", Some(word)))?;
         self.check_count("list items", count, 1)?;
-        if is_wanted {
-            self.items.clear();
-        }
         for _ in 0..count {
             let Some(word) = self.scanner.word() else { return Ok(None) };
-            if is_wanted {
-                let item = parse_integer(word);
-                self.items.push(item.ok_or_else(|| self.scanner.unexpected("an index", Some(word)))?);
+            match purpose {
+                Purpose::Nothing => {}
+                Purpose::Indices => {
+                    let item = parse_integer(word);
+                    let item = item.ok_or_else(|| self.scanner.unexpected("an index", Some(word)))?;
+                    self.record.indices.push(item);
+                }
+                Purpose::Texcoords => {
+                    let item = parse_number(word);
+                    let item = item.ok_or_else(|| self.scanner.unexpected("a number", Some(word)))?;
+                    self.record.texcoords.push(item);
+                }
             }
         }
         Ok(Some(()))
     }
 
-    /// Passes a record and leaves the list number `list` in `items`; `None` where the text ends inside it.
-    fn record(&mut self, element: &Element, list: Option<usize>) -> Result<Option<()>, MeshError> {
+    /// Passes a record and leaves what is wanted of it in `record`; `None` where the text ends inside
+    /// it.
+    fn record(&mut self, element: &Element, wanted: Option<&Wanted>) -> Result<Option<()>, MeshError> {
+        self.record.clear();
         for (place, property) in element.properties.iter().enumerate() {
             let passed = match property.kind {
-                PropertyKind::Scalar(_) => self.scanner.word().map(drop),
-                PropertyKind::List { .. } => self.list(list == Some(place))?,
+                PropertyKind::Scalar(_) => {
+                    let word = self.scanner.word();
+                    if let Some(word) = word.filter(|_| wanted.is_some_and(|w| w.colors.contains(&place))) {
+                        let value = parse_number(word);
+                        let value = value.ok_or_else(|| self.scanner.unexpected("a number", Some(word)))?;
+                        self.record.colors.push(value);
+                    }
+                    word.map(drop)
+                }
+                PropertyKind::List { .. } => self.list(match wanted {
+                    Some(wanted) if wanted.indices == place => Purpose::Indices,
+                    Some(wanted) if wanted.texcoords == Some(place) => Purpose::Texcoords,
+                    _ => Purpose::Nothing,
+                })?,
             };
             if passed.is_none() {
                 return Ok(None);
@@ -120,11 +149,7 @@ impl<'a> Text<'a> {
 
 impl Values for Text<'_> {
     /// Packs the scalars into records, the coordinates as `f64` whatever type is declared: the digits are there.
-    fn vertices(
-        &mut self,
-        element: &Element,
-        report: &mut FileReport,
-    ) -> Result<(Coordinates, Vec<Attribute>), MeshError> {
+    fn vertices(&mut self, element: &Element, report: &mut FileReport) -> Result<Vertices, MeshError> {
         let coordinates = coordinate_properties(element)?;
         let mut wide = element.clone();
         for place in coordinates {
@@ -134,10 +159,11 @@ impl Values for Text<'_> {
         self.check_count("vertices", element.count, element.properties.len())?;
         let n_records = usize::try_from(element.count).unwrap_or(usize::MAX);
         let mut packed = Vec::with_capacity(n_records.saturating_mul(stride_bytes));
+        let mut bad_places = Vec::new();
         for found in 0..n_records {
             for (place, field) in fields.iter().enumerate() {
                 let Some(Field { scalar, .. }) = *field else {
-                    self.list(false)?
+                    self.list(Purpose::Nothing)?
                         .ok_or_else(|| ends_early(&self.scanner, "vertices", element.count, found))?;
                     continue;
                 };
@@ -146,7 +172,11 @@ impl Values for Text<'_> {
                 if coordinates.contains(&place) {
                     let value =
                         parse_number(word).ok_or_else(|| self.scanner.unexpected("a number", Some(word)))?;
-                    check_coordinate(value, self.scanner.place())?;
+                    if check_coordinate(value, self.scanner.place()).is_err()
+                        && bad_places.last().is_none_or(|&(vertex, _)| vertex != found)
+                    {
+                        bad_places.push((found, self.scanner.place()));
+                    }
                     packed.extend(value.to_le_bytes());
                 } else {
                     self.pack(word, scalar, &mut packed)?;
@@ -156,17 +186,22 @@ impl Values for Text<'_> {
         }
         let records =
             Records { bytes: &packed, n_records, stride_bytes, fields, is_big_endian: false, is_text: true };
-        take_apart(&records, &wide, report)
+        Ok(Vertices { bad_places, ..take_apart(&records, &wide, report)? })
     }
 
-    fn lists(&mut self, element: &Element, list: usize, visit: &mut Visit<'_>) -> Result<(), MeshError> {
+    fn records(
+        &mut self,
+        element: &Element,
+        wanted: &Wanted,
+        visit: &mut Visit<'_>,
+    ) -> Result<(), MeshError> {
         self.check_count("faces", element.count, element.properties.len())?;
         for found in 0..element.count {
-            let passed = self.record(element, Some(list))?;
+            let passed = self.record(element, Some(wanted))?;
             let place = self.record_place;
             let found = usize::try_from(found).unwrap_or(usize::MAX);
             passed.ok_or_else(|| ends_early(&self.scanner, "faces", element.count, found))?;
-            visit(place, &self.items)?;
+            visit(place, &self.record)?;
         }
         Ok(())
     }

@@ -4,9 +4,10 @@
 
 use super::header::{Element, PropertyKind};
 use super::names::plan_attributes;
-use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
+use crate::coordinates::Points;
 use crate::error::{MeshError, Place};
-use crate::{Attribute, FileReport, Kind, ScalarType};
+use crate::report::ItemId;
+use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// Vertex records, one after another, all of the same layout.
 pub(crate) struct Records<'a> {
@@ -61,18 +62,26 @@ pub(crate) fn coordinate_properties(element: &Element) -> Result<[usize; 3], Mes
     Ok([place_of("x")?, place_of("y")?, place_of("z")?])
 }
 
+/// The vertices of a file, and where those stand whose coordinates are no numbers of `f32`.
+pub(crate) struct Vertices {
+    pub points: Points,
+    pub attributes: Vec<Attribute>,
+    /// Vertex and place, in the order of the vertices; only of text.
+    pub bad_places: Vec<(usize, Place)>,
+}
+
 /// Positions and attributes of the vertices. One pass for the positions and one for each attribute.
 ///
 /// # Errors
 ///
-/// [`MeshError::NonFinite`] or [`MeshError::CoordinateTooLarge`] with the first vertex at fault.
+/// [`MeshError::Missing`] where there are no coordinates.
 pub(crate) fn take_apart(
     records: &Records<'_>,
     element: &Element,
     report: &mut FileReport,
-) -> Result<(Coordinates, Vec<Attribute>), MeshError> {
+) -> Result<Vertices, MeshError> {
     let places = coordinate_properties(element)?;
-    let coordinates = positions(records, places)?;
+    let points = points(records, places)?;
     for property in &element.properties {
         if matches!(property.kind, PropertyKind::List { .. }) {
             let id = report.found(Kind::Attribute, &property.name);
@@ -96,13 +105,34 @@ pub(crate) fn take_apart(
             4 => gather::<4>(records, &offsets),
             _ => gather::<8>(records, &offsets),
         };
-        attributes.push(Attribute { name: plan.name, scalar: plan.scalar, n_components, bytes });
+        let attribute = Attribute { name: plan.name, scalar: plan.scalar, n_components, bytes };
+        attributes.push(by_convention(attribute, id, report));
     }
-    Ok((coordinates, attributes))
+    Ok(Vertices { points, attributes, bad_places: Vec::new() })
 }
 
-/// Positions, exact and in one pass where all three coordinates are `f32`.
-fn positions(records: &Records<'_>, places: [usize; 3]) -> Result<Coordinates, MeshError> {
+/// Texture coordinates with V counted from the top, and colours in fractions between 0 and 1: some
+/// programs write whole numbers up to 255 as `float`.
+fn by_convention(attribute: Attribute, id: ItemId, report: &mut FileReport) -> Attribute {
+    let is_float = matches!(attribute.scalar, ScalarType::F32 | ScalarType::F64);
+    match attribute.name.as_str() {
+        "texcoord" if attribute.n_components == 2 => attribute.with_v_turned(),
+        "color" if is_float && attribute.n_components > 1 => {
+            let is_byte = |value: f64| value.fract() == 0.0 && (0.0..=255.0).contains(&value);
+            let are_bytes = attribute.values().all(is_byte) && attribute.values().any(|value| value > 1.0);
+            if !are_bytes {
+                return attribute;
+            }
+            report.change(id, Change::Otherwise("taken as numbers up to 255".into()));
+            let values: Vec<f64> = attribute.values().collect();
+            Attribute::from_values("color", ScalarType::U8, attribute.n_components, values)
+        }
+        _ => attribute,
+    }
+}
+
+/// Positions, as a copy where all three coordinates are `f32`.
+fn points(records: &Records<'_>, places: [usize; 3]) -> Result<Points, MeshError> {
     let Some(fields) = places.map(|place| records.fields[place]).into_iter().collect::<Option<Vec<Field>>>()
     else {
         return Err(MeshError::Missing { place: Place::Part("vertex element"), what: "x, y or z" });
@@ -112,19 +142,20 @@ fn positions(records: &Records<'_>, places: [usize; 3]) -> Result<Coordinates, M
         let offsets = [fields[0].offset, fields[1].offset, fields[2].offset];
         let is_contiguous = offsets[1] == offsets[0] + 4 && offsets[2] == offsets[0] + 8;
         if is_contiguous && records.is_big_endian {
-            return from_f32(contiguous_positions(records, offsets[0], f32::from_be_bytes));
+            return Ok(Points::F32(contiguous_positions(records, offsets[0], f32::from_be_bytes)));
         }
         if is_contiguous {
-            return from_f32(contiguous_positions(records, offsets[0], f32::from_le_bytes));
+            return Ok(Points::F32(contiguous_positions(records, offsets[0], f32::from_le_bytes)));
         }
         let value =
             |record: &[u8], offset| f32::from_le_bytes(value_bytes(record, offset, records.is_big_endian));
-        return from_f32(records.iter().map(|record| offsets.map(|offset| value(record, offset))).collect());
+        let point = |record: &[u8]| offsets.map(|offset| value(record, offset));
+        return Ok(Points::F32(records.iter().map(point).collect()));
     }
     let point =
         |record: &[u8]| std::array::from_fn(|axis| scalar_value(record, fields[axis], records.is_big_endian));
     let points: Vec<[f64; 3]> = records.iter().map(point).collect();
-    if records.is_text { from_text(&points) } else { from_f64(&points) }
+    Ok(if records.is_text { Points::Text(points) } else { Points::F64(points) })
 }
 
 /// Positions whose three values stand side by side: the layout of nearly every scan, at the speed of a copy.

@@ -4,6 +4,7 @@
 //! the one its triangle count asks for is binary whatever it begins with. Corners at exactly the same position become
 //! one vertex. The normals of the file are not kept: they follow from the corners, and many programs write zeros.
 
+mod colors;
 mod read;
 mod weld;
 mod write;

@@ -1,9 +1,12 @@
 //! STL files, binary and text.
 
+use super::colors;
 use super::weld::weld;
+use crate::contents::figure;
 use crate::coordinates::{Coordinates, check_coordinate, from_f32, from_text};
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
+use crate::report::ItemId;
 use crate::text::{Scanner, Style};
 use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
@@ -51,20 +54,33 @@ type Soup = (Coordinates, Vec<[u32; 3]>);
 fn read_binary(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError> {
     let found = bytes.len() as u64;
     let truncated = |what, expected| MeshError::Truncated { place: Place::Byte(0), what, expected, found };
-    let expected = length_of_binary(bytes).ok_or_else(|| truncated("STL header", HEADER_BYTES as u64 + 4))?;
+    let mut expected =
+        length_of_binary(bytes).ok_or_else(|| truncated("STL header", HEADER_BYTES as u64 + 4))?;
+    let (records, rest) = bytes[HEADER_BYTES + 4..].as_chunks::<TRIANGLE_BYTES>();
+    let stated = (expected - HEADER_BYTES as u64 - 4) / TRIANGLE_BYTES as u64;
+    // Programs that write while they count leave 0 or all ones; a file that was cut claims too much.
+    let is_unknown = stated == u64::from(u32::MAX) && !records.is_empty();
+    if rest.is_empty() && (stated < records.len() as u64 || is_unknown) {
+        let n = figure(records.len() as u64);
+        report.remark(format!(
+            "the header states {} triangles, the file holds {n}, which are read",
+            figure(stated)
+        ));
+        expected = found;
+    }
     if found < expected {
         return Err(truncated("STL file", expected));
     }
     report.count(Kind::TrailingByte, found - expected);
-    let (records, _) = bytes[HEADER_BYTES + 4..].as_chunks::<TRIANGLE_BYTES>();
     let n_triangles = usize::try_from((expected - HEADER_BYTES as u64 - 4) / TRIANGLE_BYTES as u64);
-    let n_triangles = n_triangles.unwrap_or(usize::MAX).min(records.len());
-    let mut corners = Vec::with_capacity(3 * n_triangles);
-    for record in &records[..n_triangles] {
-        // A normal, three corners, and two bytes without a fixed meaning.
+    let records = &records[..n_triangles.unwrap_or(usize::MAX).min(records.len())];
+    let mut corners = Vec::with_capacity(3 * records.len());
+    for record in records {
+        // A normal, three corners, and two bytes, which may be a colour.
         let (values, _) = record[12..48].as_chunks::<4>();
         corners.extend(values.as_chunks::<3>().0.iter().map(|corner| corner.map(f32::from_le_bytes)));
     }
+    colors::register(&bytes[..HEADER_BYTES], records, report);
     let coordinates = from_f32(corners)?;
     let triangles = (0..corner_number(coordinates.positions.len())?)
         .step_by(3)
@@ -77,11 +93,15 @@ fn read_text(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError> {
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut faces = Faces::default();
     let mut face: Vec<u32> = Vec::new();
+    let mut solid: Option<ItemId> = None;
     let mut is_closed = false;
     while let Some(word) = scanner.word() {
         is_closed = false;
         match word.to_ascii_lowercase().as_slice() {
-            b"solid" => pass_line(&mut scanner),
+            b"solid" => {
+                let name = scanner.rest_of_line();
+                solid = (!name.is_empty()).then(|| report.named(Kind::Solid, &name));
+            }
             // The normal's three numbers are not looked at: some programs write `nan` or `-1.#IND`.
             b"facet" => pass_words(&mut scanner, 4),
             b"outer" => pass_words(&mut scanner, 1),
@@ -91,10 +111,15 @@ fn read_text(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError> {
                 face.push(corner_number(points.len())?);
                 points.push(point);
             }
-            b"endloop" => faces.push(&std::mem::take(&mut face)),
+            b"endloop" => {
+                if let Some(solid) = solid {
+                    report.grow(solid, face.len().saturating_sub(2) as u64, "triangles");
+                }
+                faces.push(&std::mem::take(&mut face));
+            }
             b"endfacet" => {}
             b"endsolid" => {
-                pass_line(&mut scanner);
+                scanner.rest_of_line();
                 is_closed = true;
             }
             _ => return Err(scanner.unexpected("an STL keyword", Some(word))),
@@ -106,11 +131,6 @@ fn read_text(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError> {
     let coordinates = from_text(&points)?;
     let triangles = faces.into_triangles(&coordinates.positions, report);
     Ok((coordinates, triangles))
-}
-
-/// Goes to the end of the line, past the name of a solid.
-fn pass_line(scanner: &mut Scanner<'_>) {
-    while scanner.word_in_line().is_some() {}
 }
 
 fn pass_words(scanner: &mut Scanner<'_>, n_words: usize) {

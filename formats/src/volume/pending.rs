@@ -2,18 +2,11 @@
 
 use super::cells::Cells;
 use super::scalars::{Numbers, points_f32};
-use crate::coordinates::{Coordinates, from_f32, from_f64, from_text};
+use crate::coordinates::Coordinates;
+pub(super) use crate::coordinates::Points;
 use crate::distinct::DistinctNames;
 use crate::report::ItemId;
 use crate::{Attribute, Change, FileReport, Kind, MeshError, TetrahedronMesh};
-
-/// Points in the precision of the file.
-pub(super) enum Points {
-    F32(Vec<[f32; 3]>),
-    F64(Vec<[f64; 3]>),
-    /// `f64` from text, whose digits may be those of `f32`.
-    Text(Vec<[f64; 3]>),
-}
 
 impl Points {
     /// Points from numbers, three each; what is left over is left out.
@@ -24,13 +17,6 @@ impl Points {
         let values: Vec<f64> = numbers.to_f64().collect();
         let points = values.as_chunks::<3>().0.to_vec();
         if is_text { Self::Text(points) } else { Self::F64(points) }
-    }
-
-    pub(super) fn len(&self) -> usize {
-        match self {
-            Self::F32(points) => points.len(),
-            Self::F64(points) | Self::Text(points) => points.len(),
-        }
     }
 
     /// For each point whether `f32` can hold its coordinates.
@@ -51,14 +37,6 @@ impl Points {
         match self {
             Self::F32(points) => points.retain(|_| kept.next().unwrap_or(true)),
             Self::F64(points) | Self::Text(points) => points.retain(|_| kept.next().unwrap_or(true)),
-        }
-    }
-
-    fn into_coordinates(self) -> Result<Coordinates, MeshError> {
-        match self {
-            Self::F32(points) => from_f32(points),
-            Self::F64(points) => from_f64(&points),
-            Self::Text(points) => from_text(&points),
         }
     }
 }
