@@ -1,7 +1,6 @@
 //! How far the fields of two volumes are apart, sampled at the vertices of each in the other.
 
 use super::locator::Locator;
-use super::{MeasureError, Side};
 use nephrite_formats::{Attribute, TetrahedronMesh};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -31,32 +30,7 @@ pub struct FieldDistance {
 
 /// Measures every field that both volumes have under the same name and with the same number of
 /// components. O(n log n).
-///
-/// # Errors
-///
-/// [`MeasureError::Inconsistent`] for a volume that contradicts itself.
-///
-/// ```
-/// use nephrite::generate::box_volume;
-/// use nephrite::measure::measure_fields;
-/// use nephrite::{Attribute, ScalarType};
-/// let heights = |lift: f64| {
-///     let mut volume = box_volume([3; 3]);
-///     let values: Vec<f64> = volume.positions.iter().map(|p| f64::from(p[2]) + lift).collect();
-///     volume.attributes.push(Attribute::from_values("height", ScalarType::F64, 1, values));
-///     volume
-/// };
-/// let fields = measure_fields(&heights(0.0), &heights(0.5))?;
-/// assert_eq!(fields[0].max, 0.5);
-/// # Ok::<(), nephrite::measure::MeasureError>(())
-/// ```
-pub fn measure_fields(
-    reference: &TetrahedronMesh,
-    mesh: &TetrahedronMesh,
-) -> Result<Vec<FieldDistance>, MeasureError> {
-    for (side, volume) in [(Side::Reference, reference), (Side::Mesh, mesh)] {
-        volume.check().map_err(|fault| MeasureError::Inconsistent { side, fault })?;
-    }
+pub fn measure_fields(reference: &TetrahedronMesh, mesh: &TetrahedronMesh) -> Vec<FieldDistance> {
     let pairs: Vec<[&Attribute; 2]> = reference
         .attributes
         .iter()
@@ -66,7 +40,7 @@ pub fn measure_fields(
         })
         .collect();
     if pairs.is_empty() {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let forward = Places::find(reference, mesh);
     let backward = Places::find(mesh, reference);
@@ -89,7 +63,7 @@ pub fn measure_fields(
             n_outside: reference.positions.len() + mesh.positions.len() - n_samples,
         }
     });
-    Ok(measured.collect())
+    measured.collect()
 }
 
 /// Where the vertices of one volume are in the other.

@@ -1,4 +1,4 @@
-//! The command line as a whole; each command's own arguments stand beside it in [`crate::commands`].
+//! The command line; the arguments of each command are in its file in [`crate::commands`].
 
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, Parser};
@@ -11,9 +11,10 @@ Example:
   nephrite build bunny.ply -o bunny.neph
   nephrite extract bunny.neph --error 0.2% -o lod.ply";
 
-/// Every level of detail of a mesh, each with an error bound, from one file.
+/// Build one file that holds every level of detail of a mesh, each with a bounded error, and use it.
 ///
-/// Lengths are in the mesh's own units; with a trailing % they are in percent of its bounding box diagonal.
+/// Lengths are in the units of the mesh; with a trailing % they are in percent of its bounding box
+/// diagonal. A mesh or file named - is standard input or output.
 #[derive(Debug, Parser)]
 #[command(name = "nephrite", version, max_term_width = 100, after_help = EXAMPLE)]
 pub(crate) struct Arguments {
@@ -25,8 +26,8 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Says on stderr that the arguments of a command are wrong, as clap itself says it: with the usage of
-/// the command, and where to find help.
+/// Prints on standard error that the arguments of a command are wrong, in the form of clap: the message,
+/// the usage of the command, and where to find help.
 pub(crate) fn print_wrong_usage(matches: &ArgMatches, message: &str) {
     let mut command = Arguments::command();
     command.build();

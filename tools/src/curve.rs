@@ -1,4 +1,4 @@
-//! The error-triangle curve as an SVG picture with logarithmic axes.
+//! The curve of error against simplices as an SVG picture with logarithmic axes.
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -10,26 +10,26 @@ use crate::figures;
 /// Size of the picture, in pixels.
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 440.0;
-/// Where the lines are drawn, from the left and from the top.
+/// Edges of the drawing, from the left and from the top of the picture.
 const LEFT: f64 = 72.0;
 const RIGHT: f64 = 736.0;
 const TOP: f64 = 48.0;
 const BOTTOM: f64 = 388.0;
-/// One colour per line, in turn (Okabe and Ito, 2008: told apart by nearly all eyes).
+/// Colours of the lines, in turn (Okabe and Ito, 2008: nearly everybody can tell them apart).
 const COLORS: [&str; 6] = ["#0b7a53", "#d55e00", "#0072b2", "#cc79a7", "#a07a00", "#444444"];
-/// Most decades with a line for each of their nine steps.
+/// With more decades than this, only their first steps get a grid line.
 const MAX_FINE_DECADES: i32 = 7;
 
 /// The levels of one file.
 pub(crate) struct Curve {
-    /// What to call it.
+    /// Its name.
     pub(crate) name: String,
     /// Triangles and error of each level, finest first; the error in percent of the diagonal.
     pub(crate) points: Vec<(f64, f64)>,
 }
 
-/// Draws curves into one picture. Levels without error or without triangles have no place on logarithmic axes and are left out.
-/// `simplices` names what is counted.
+/// Draws curves into one picture. Levels without error or without simplices have no place on logarithmic
+/// axes and are left out. `simplices` names what is counted.
 pub(crate) fn svg(title: &str, simplices: &str, curves: &[Curve]) -> String {
     let drawn = |curve: &Curve| -> Vec<(f64, f64)> {
         curve
@@ -72,7 +72,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// With a little room on both sides of the values; from 1 to 10 where there are none.
+    /// An axis with a little room on both sides of the values; from 1 to 10 if there are no values.
     #[expect(clippy::cast_possible_truncation, reason = "logarithms of doubles are below 400")]
     fn around(values: impl Iterator<Item = f64>, pixels: RangeInclusive<f64>) -> Self {
         let logarithms = values.map(f64::log10);
@@ -85,13 +85,13 @@ impl Axis {
         Self { first_decade: from.floor() as i32, last_decade: to.ceil() as i32, from, to, pixels }
     }
 
-    /// Pixels of a value; outside of the picture for values outside of the axis.
+    /// Position of a value in pixels; outside of the picture for values outside of the axis.
     fn at(&self, value: f64) -> f64 {
         let part = (value.log10() - self.from) / (self.to - self.from);
         self.pixels.start() + part * (self.pixels.end() - self.pixels.start())
     }
 
-    /// Values that deserve a line, each with whether it is the first of its decade.
+    /// Values of the grid lines, each with whether it is the first of its decade.
     fn lines(&self) -> impl Iterator<Item = (f64, bool)> + '_ {
         let n_steps = if self.last_decade - self.first_decade > MAX_FINE_DECADES { 1 } else { 9 };
         (self.first_decade..=self.last_decade)
@@ -101,7 +101,7 @@ impl Axis {
             .filter(|(value, _)| (self.from..=self.to).contains(&value.log10()))
     }
 
-    /// Whether a line between decades gets its number: where decades alone would be too few.
+    /// Whether a grid line gets its number: all decades, and steps 2 and 5 if there are few decades.
     fn is_labelled(&self, value: f64, is_decade: bool) -> bool {
         let first_digit = value / 10f64.powf(value.log10().floor());
         let is_two_or_five = [2.0, 5.0].iter().any(|digit| (first_digit - digit).abs() < 1e-6);
@@ -145,7 +145,7 @@ fn draw_grid(svg: &mut String, simplices: &str, x: &Axis, y: &Axis) {
     );
 }
 
-/// A line in steps: from level to level the error stays until there are enough triangles for the finer one.
+/// Draws a line in steps: the error falls where there are enough simplices for the finer level.
 fn draw_line(svg: &mut String, points: &[(f64, f64)], color: &str, (x, y): (&Axis, &Axis)) {
     let mut path = String::new();
     for (index, &(n_triangles, error)) in points.iter().rev().enumerate() {
@@ -187,7 +187,7 @@ fn draw_legend(svg: &mut String, curves: &[Curve]) {
     }
 }
 
-/// A number of triangles in few signs: `20 k`.
+/// A count in few characters: `20 k`.
 fn triangles(value: f64) -> String {
     match value {
         value if value >= 1e6 => format!("{} M", value / 1e6),
@@ -196,7 +196,7 @@ fn triangles(value: f64) -> String {
     }
 }
 
-/// A first digit and zeros, without the digits that [`figures::significant`] keeps.
+/// As [`figures::significant`], without trailing zeros.
 fn percent(value: f64) -> String {
     let digits = figures::significant(value);
     if digits.contains('.') && !digits.contains('e') {
@@ -206,7 +206,7 @@ fn percent(value: f64) -> String {
     }
 }
 
-/// Text without the characters that mean something in XML.
+/// Replaces the characters that have a meaning in XML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

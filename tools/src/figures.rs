@@ -1,4 +1,4 @@
-//! Figures for people to read: grouped counts, lengths to four digits, aligned tables.
+//! Figures for people: grouped counts, lengths to 4 digits, aligned tables.
 
 use std::fmt::Write;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use nephrite::query::{CurvePoint, Simplex};
 use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 
-/// A count with its thousands apart: `69,451`.
+/// A count with separated thousands: `69,451`.
 pub(crate) fn count(value: impl TryInto<u64>) -> String {
     let digits = value.try_into().unwrap_or(u64::MAX).to_string();
     let mut grouped = String::with_capacity(digits.len() * 4 / 3);
@@ -56,7 +56,7 @@ pub(crate) fn error(error: f64, bounding_diagonal: f64) -> String {
     format!("{} ({} % of the diagonal)", significant(error), percent(error, bounding_diagonal))
 }
 
-/// A length in percent of the diagonal, zero where there is no diagonal.
+/// A length in percent of the diagonal; 0 if there is no diagonal.
 pub(crate) fn share(length: f64, bounding_diagonal: f64) -> f64 {
     if bounding_diagonal > 0.0 { 100.0 * length / bounding_diagonal } else { 0.0 }
 }
@@ -66,7 +66,7 @@ pub(crate) fn percent(length: f64, bounding_diagonal: f64) -> String {
     significant(share(length, bounding_diagonal))
 }
 
-/// Bytes in the unit that leaves one to three digits: `1.2 MB`.
+/// Bytes in the unit that leaves 1 to 3 digits before the point: `1.2 MB`.
 pub(crate) fn bytes(n_bytes: u64) -> String {
     const UNITS: [&str; 4] = ["kB", "MB", "GB", "TB"];
     if n_bytes < 1000 {
@@ -82,7 +82,7 @@ pub(crate) fn bytes(n_bytes: u64) -> String {
     format!("{scaled:.1} {}", UNITS[unit])
 }
 
-/// A time in the unit that suits it: `12.3 us`, `4.56 s`.
+/// A time in a suitable unit: `12.3 us`, `4.56 s`.
 pub(crate) fn time(duration: Duration) -> String {
     let seconds = duration.as_secs_f64();
     if seconds < 1e-3 {
@@ -96,13 +96,13 @@ pub(crate) fn time(duration: Duration) -> String {
     }
 }
 
-/// A time that is only a guess: `7 s`, `4 min`.
+/// A rough time: `7 s`, `4 min`.
 pub(crate) fn rough_time(duration: Duration) -> String {
     let seconds = duration.as_secs_f64();
     if seconds < 100.0 { format!("{seconds:.0} s") } else { format!("{:.0} min", seconds / 60.0) }
 }
 
-/// Rows under headings, every column as wide as its widest cell and flush right.
+/// Rows under headings. Every column is as wide as its widest cell and flush right.
 pub(crate) fn table<const COLUMNS: usize>(headings: [&str; COLUMNS], rows: &[[String; COLUMNS]]) -> String {
     let widths: [usize; COLUMNS] = std::array::from_fn(|column| {
         rows.iter().map(|row| row[column].chars().count()).chain([headings[column].len()]).max().unwrap_or(0)
@@ -117,7 +117,7 @@ pub(crate) fn table<const COLUMNS: usize>(headings: [&str; COLUMNS], rows: &[[St
     text
 }
 
-/// The counts of a report that are not zero, in words made of their keys: `3 vertices welded, 1 triangles duplicate`.
+/// The counts of a report that are not 0, in words made of their keys: `3 vertices welded`.
 pub(crate) fn tally(report: &Value) -> String {
     let counts = report.as_object().into_iter().flatten();
     let mut words: Vec<String> = counts
@@ -148,7 +148,7 @@ pub(crate) fn notes(notes: &[String]) -> String {
     notes.iter().map(|note| format!("  {note}\n")).collect()
 }
 
-/// Lines of a name and what it is, the names as wide as the widest.
+/// Lines of a name and its value, the values aligned.
 pub(crate) fn list(rows: &[(&str, String)]) -> String {
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     rows.iter().map(|(name, value)| format!("  {name:<width$}  {value}\n")).collect()

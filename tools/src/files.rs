@@ -2,46 +2,16 @@
 
 use std::fs;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use nephrite::Lod;
 use nephrite::store::OpenError;
-use nephrite::{Lod, TetrahedronMesh, TriangleMesh};
 use nephrite_formats::neph::{Directory, MAGIC, MAX_HEAD_BYTES};
-use nephrite_formats::{FileReport, VolumeFormat};
 
 use crate::failure::Failure;
 use crate::meshes;
 use crate::report;
 use crate::streams::{Source, Target};
-
-/// Reads a surface.
-///
-/// # Errors
-///
-/// Whatever is wrong with the file.
-pub(crate) fn read_mesh(path: &Path) -> Result<(TriangleMesh, FileReport), Failure> {
-    Ok(nephrite_formats::read_mesh(path)?)
-}
-
-/// Reads a volume, PLOT3D with its solutions.
-///
-/// # Errors
-///
-/// Whatever is wrong with the files.
-pub(crate) fn read_volume(
-    path: &Path,
-    solutions: &[PathBuf],
-) -> Result<(TetrahedronMesh, FileReport), Failure> {
-    Ok(match solutions {
-        [] => nephrite_formats::read_volume(path)?,
-        solutions => nephrite_formats::read_plot3d(path, solutions)?,
-    })
-}
-
-/// Whether a path names a volume by its extension.
-pub(crate) fn is_volume(path: &Path) -> bool {
-    VolumeFormat::from_path(path).is_some()
-}
 
 /// Opens a file that `build` wrote. The file is read and not mapped, as anybody may change it meanwhile.
 ///

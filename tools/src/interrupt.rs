@@ -1,4 +1,4 @@
-//! Ctrl-C: the first asks the command to stop where nothing is half-written, the second ends the process at once.
+//! Ctrl-C: the first asks the command to stop before it writes anything, the second ends the process.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,10 +7,10 @@ use crate::failure::{Failure, INTERRUPTED};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// Takes over Ctrl-C and its like (SIGTERM, SIGHUP) for the rest of the process.
+/// Takes over Ctrl-C, SIGTERM and SIGHUP for the rest of the process.
 ///
-/// Where the system refuses, an interrupt ends the process the default way: files are published by rename, so even
-/// then none is half-written.
+/// If the system refuses, an interrupt ends the process in the default way. Files are published by rename,
+/// so none is half-written even then.
 pub(crate) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if REQUESTED.swap(true, Ordering::Relaxed) {
@@ -19,12 +19,12 @@ pub(crate) fn listen() {
     });
 }
 
-/// True once somebody asked the command to stop.
+/// True after an interrupt.
 pub(crate) fn is_requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)
 }
 
-/// Returns early from a command that was asked to stop, before it publishes anything.
+/// Ends a command that was interrupted, before it publishes anything.
 ///
 /// # Errors
 ///

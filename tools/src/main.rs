@@ -1,7 +1,7 @@
-//! The program `nephrite`: one mesh in, any level of detail out.
+//! The program `nephrite`: builds files of all levels of detail of a mesh, and uses them.
 //!
-//! Results go to stdout, progress and notes to stderr. Exit status 0 is done, 1 a failure told in one line, 2 wrong
-//! usage, 130 an interrupt.
+//! Results go to standard output, progress and notes to standard error. Exit status: 0 success, 1 a
+//! failure with one line that says why, 2 wrong usage, 130 an interrupt.
 
 mod allocator;
 mod arguments;

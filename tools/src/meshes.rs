@@ -190,7 +190,9 @@ pub(crate) fn format_to_write(
             let error = MeshError::UnknownExtension { extension: "gltf".to_owned() };
             Err(error.in_file(target.to_string()).into())
         }
-        (FileFormat::Volume(format), Simplex::Tetrahedron) if !format.is_written() => {
+        (FileFormat::Volume(format), Simplex::Tetrahedron)
+            if !format.is_written() || !is_main_extension(target, format) =>
+        {
             let error = MeshError::UnknownVolumeExtension { extension: format.extensions()[0].to_owned() };
             Err(error.in_file(target.to_string()).into())
         }
@@ -199,6 +201,12 @@ pub(crate) fn format_to_write(
         }
         _ => Err(wrong_kind(target, format, simplex)),
     }
+}
+
+/// False for a name such as `grid.pvtu`, which the format reads but does not write.
+fn is_main_extension(target: &Target, format: VolumeFormat) -> bool {
+    let extension = target.path().and_then(Path::extension);
+    extension.is_none_or(|extension| extension.eq_ignore_ascii_case(format.extensions()[0]))
 }
 
 fn wrong_kind(target: &Target, format: FileFormat, simplex: Simplex) -> Failure {

@@ -4,11 +4,11 @@
 pub(crate) struct Asset {
     /// Its name, which is its address.
     pub(crate) name: &'static str,
-    /// What it is.
+    /// Its media type.
     pub(crate) content_type: &'static str,
-    /// What is in it.
+    /// Its contents.
     pub(crate) bytes: &'static [u8],
 }
 
-/// Why there is a page or none: `Ok` with its files, `Err` with what the build missed.
+/// The files of the page, or what was missing when the program was built.
 pub(crate) const PAGE: Result<&[Asset], &str> = include!(concat!(env!("OUT_DIR"), "/page.rs"));

@@ -1,4 +1,4 @@
-//! A histogram as an SVG picture, like the one that Metro shows beside a coloured mesh.
+//! A histogram as an SVG picture, as Metro shows it beside a coloured mesh.
 
 use std::fmt::Write;
 
@@ -10,27 +10,27 @@ use crate::{figures, ramp};
 const WIDTH: f64 = 720.0;
 /// Height of one panel with its axis.
 const PANEL_HEIGHT: f64 = 230.0;
-/// Where the bars begin and end, from the left.
+/// Left and right end of the bars.
 const LEFT: f64 = 64.0;
 const RIGHT: f64 = 696.0;
 /// Height of the tallest bar.
 const BAR_HEIGHT: f64 = 140.0;
-/// Lines of text above the first panel.
+/// Height of the text above the first panel.
 const HEADER_HEIGHT: f64 = 34.0;
-/// Numbers along the axis, the ends included.
+/// Numbers along the axis, with those at both ends.
 const N_TICKS: u32 = 6;
 
 /// One histogram with its words.
 pub(crate) struct Panel<'a> {
-    /// What is shown.
+    /// Its title.
     pub(crate) title: String,
-    /// Parts of the area by distance.
+    /// Fractions of the area by distance.
     pub(crate) histogram: &'a Histogram,
-    /// Distances that a line marks, each with its name.
+    /// Distances to mark by a line, each with its name.
     pub(crate) marks: Vec<(&'static str, f64)>,
 }
 
-/// Draws panels one above the other. Lengths are shown in mesh units and in percent of the diagonal.
+/// Draws panels, one below the other. Lengths are in mesh units and in percent of the diagonal.
 pub(crate) fn svg(title: &str, panels: &[Panel<'_>], bounding_diagonal: f64) -> String {
     let height = HEADER_HEIGHT + PANEL_HEIGHT * panels.len() as f64;
     let mut svg = format!(
@@ -52,7 +52,7 @@ pub(crate) fn svg(title: &str, panels: &[Panel<'_>], bounding_diagonal: f64) -> 
     svg
 }
 
-/// Title, bars in the colours of their distances, and the share of the tallest one.
+/// Draws the title, the bars in the colours of their distances, and the fraction of the tallest one.
 fn draw_bars(svg: &mut String, panel: &Panel<'_>) {
     let bins = &panel.histogram.bins;
     let tallest = bins.iter().copied().fold(0.0, f64::max);
@@ -82,7 +82,7 @@ fn draw_bars(svg: &mut String, panel: &Panel<'_>) {
         writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">of area</text>", LEFT - 6.0, bottom + 4.0);
 }
 
-/// A dashed line with its name for each mark inside the range.
+/// Draws a dashed line and a name for each mark inside the range.
 fn draw_marks(svg: &mut String, panel: &Panel<'_>) {
     for (index, (name, distance)) in panel.marks.iter().enumerate() {
         let part = distance / panel.histogram.range;
@@ -103,7 +103,7 @@ fn draw_marks(svg: &mut String, panel: &Panel<'_>) {
     }
 }
 
-/// The axis with distances in mesh units and, below, in percent of the diagonal.
+/// Draws the axis with distances in mesh units and, below them, in percent of the diagonal.
 fn draw_axis(svg: &mut String, histogram: &Histogram, bounding_diagonal: f64) {
     let bottom = baseline();
     let _ = writeln!(
@@ -129,12 +129,12 @@ fn draw_axis(svg: &mut String, histogram: &Histogram, bounding_diagonal: f64) {
     }
 }
 
-/// Where the bars stand, from the top of their panel.
+/// Bottom of the bars, from the top of their panel.
 fn baseline() -> f64 {
     26.0 + BAR_HEIGHT
 }
 
-/// Text without the characters that mean something in XML.
+/// Replaces the characters that have a meaning in XML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -1,5 +1,5 @@
-//! Long work as it goes, a build with its phase, triangles left, current error and time left, on stderr where somebody
-//! watches.
+//! Progress bars on standard error: of a build with its phase, simplices left, error and time left, and of
+//! a proof.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -9,10 +9,10 @@ use nephrite::{Phase, Progress};
 
 use crate::{figures, interrupt};
 
-/// Steps of the bar; finer than any terminal is wide.
+/// Steps of the bar: more than a terminal has columns.
 const BAR_STEPS: u64 = 1000;
 
-/// The bar of one build. It is drawn only where stderr is a terminal, and cleared when dropped.
+/// The bar of one build. It is drawn only if standard error is a terminal, and cleared when dropped.
 pub(crate) struct BuildBar {
     bar: ProgressBar,
     start: Instant,
@@ -22,14 +22,23 @@ pub(crate) struct BuildBar {
 impl BuildBar {
     /// A bar for a mesh with this bounding box diagonal.
     pub(crate) fn new(bounding_diagonal: f64) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::stderr());
+        Self::on(ProgressDrawTarget::stderr(), bounding_diagonal)
+    }
+
+    /// A bar that is not drawn and only carries interrupts.
+    pub(crate) fn hidden(bounding_diagonal: f64) -> Self {
+        Self::on(ProgressDrawTarget::hidden(), bounding_diagonal)
+    }
+
+    fn on(target: ProgressDrawTarget, bounding_diagonal: f64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), target);
         if let Ok(style) = ProgressStyle::with_template("{prefix:<8} [{wide_bar}] {msg}") {
             bar.set_style(style.progress_chars("=> "));
         }
         Self { bar, start: Instant::now(), bounding_diagonal }
     }
 
-    /// Shows how far a build has come; breaks it off once somebody asked for that.
+    /// Shows the progress of a build, and breaks the build off after an interrupt.
     pub(crate) fn observe(&self, progress: &Progress) -> ControlFlow<()> {
         let done = fraction_done(progress);
         #[expect(
@@ -77,11 +86,11 @@ fn phase_name(phase: Phase) -> &'static str {
     }
 }
 
-/// Share of the removals that is behind, from 0 to 1.
+/// Fraction of the removals that are done, from 0 to 1.
 ///
-/// The error of a smooth surface falls in proportion to the triangles spent on it, so that a build which stops at
-/// `max_error` can be expected to end with `n_triangles * error / max_error` triangles; one that runs to the end, with
-/// next to none.
+/// The error of a smooth surface is in inverse proportion to its triangles. So a build that stops at
+/// `max_error` can be expected to end with `n_triangles * error / max_error` triangles, and one without a
+/// limit with nearly none.
 fn fraction_done(progress: &Progress) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a bar is no finer")]
     let [alive, input] = [progress.n_triangles, progress.n_triangles_in].map(|count| count as f64);
@@ -92,7 +101,7 @@ fn fraction_done(progress: &Progress) -> f64 {
     if input > at_the_end { ((input - alive) / (input - at_the_end)).clamp(0.0, 1.0) } else { 1.0 }
 }
 
-/// What is left of the time at the pace so far, once there is a pace.
+/// Time left at the pace so far; `None` before there is a pace.
 fn time_left(elapsed: Duration, done: f64) -> Option<Duration> {
     const FIRST_GUESS: Duration = Duration::from_millis(500);
     (elapsed >= FIRST_GUESS && done > 0.01).then(|| elapsed.mul_f64((1.0 - done) / done))

@@ -1,7 +1,7 @@
-//! Colours for distances: dark blue for none, yellow for the largest.
+//! Colours for distances: dark blue for 0, yellow for the largest.
 
-/// Viridis at nine even steps (Smith and van der Walt, 2015, CC0): equal steps look equally large, also in grey and to
-/// most colour-blind eyes.
+/// Viridis at 9 even steps (Smith and van der Walt, 2015, CC0): equal steps look equally large, also in
+/// grey and to most colour-blind people.
 const VIRIDIS: [[u8; 3]; 9] = [
     [68, 1, 84],
     [71, 45, 123],
@@ -14,7 +14,7 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
-/// The red, green and blue of a number from 0 to 1; beyond, and for what is no number, that of the nearer end.
+/// Red, green and blue of a number from 0 to 1. Numbers outside are clamped; NaN is 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

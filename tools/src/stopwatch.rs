@@ -1,15 +1,15 @@
-//! Times short enough to drown in noise: repeated, taken in turn, and reduced to medians.
+//! Measures short times: repeated, in turn, and reduced to medians.
 
 use std::time::{Duration, Instant};
 
 /// Samples taken of each piece of work; odd, so that the median is one of them.
 const N_SAMPLES: usize = 31;
-/// Samples taken where each needs a preparation.
+/// Samples of work that each needs a preparation.
 const N_PREPARED_SAMPLES: usize = 9;
-/// Shortest sample: briefer work is repeated within one, so that reading the clock does not count.
+/// Shortest sample: shorter work is repeated within one, so that reading the clock does not count.
 const SHORTEST_SAMPLE: Duration = Duration::from_micros(50);
 
-/// Median seconds that each of two pieces of work takes, their samples in turn so that both meet the same machine.
+/// Median seconds of two pieces of work. Their samples alternate, so that both meet the same load.
 pub(crate) fn in_turn(mut first: impl FnMut(), mut second: impl FnMut()) -> [f64; 2] {
     let [n_first, n_second] = [n_repeats(&mut first), n_repeats(&mut second)];
     let [mut of_first, mut of_second] = [[0.0; N_SAMPLES]; 2];
@@ -20,13 +20,13 @@ pub(crate) fn in_turn(mut first: impl FnMut(), mut second: impl FnMut()) -> [f64
     [of_first, of_second].map(median)
 }
 
-/// Median seconds that a piece of work takes.
+/// Median seconds of a piece of work.
 pub(crate) fn alone(mut work: impl FnMut()) -> f64 {
     let n_calls = n_repeats(&mut work);
     median::<N_SAMPLES>(std::array::from_fn(|_| seconds_per_call(&mut work, n_calls)))
 }
 
-/// Median seconds that a piece of work takes when it comes once after each preparation, whose time does not count.
+/// Median seconds of a piece of work that is done once after each preparation, whose time does not count.
 pub(crate) fn after(mut prepare: impl FnMut(), mut work: impl FnMut()) -> f64 {
     let mut seconds = [0.0; N_PREPARED_SAMPLES];
     for seconds in &mut seconds {

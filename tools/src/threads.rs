@@ -1,4 +1,4 @@
-//! How many threads a command may use.
+//! The number of threads of a command.
 
 use rayon::ThreadPoolBuilder;
 
@@ -13,11 +13,11 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
-    /// Runs `work` with all its parallel parts on that many threads.
+    /// Runs `work` and all its parallel parts on that many threads.
     ///
     /// # Errors
     ///
-    /// The system has no thread left.
+    /// The system has no more threads.
     pub(crate) fn run<T: Send>(self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
         let n_threads = self.threads.map_or(0, usize::from);
         let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();

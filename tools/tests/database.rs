@@ -41,7 +41,7 @@ fn what_is_no_list_of_ours_is_left_alone() {
     workplace.write("db/manifest.jsonl", "dear diary\n");
     let line = "build part.ply --output-dir db";
     let failure = workplace.failure(line);
-    assert!(failure.ends_with("something else than the list of a database"), "{failure}");
+    assert!(failure.ends_with("is not the manifest of a database"), "{failure}");
     assert_eq!(workplace.read("db/manifest.jsonl"), b"dear diary\n");
     #[cfg(unix)]
     {

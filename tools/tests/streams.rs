@@ -36,6 +36,12 @@ fn a_surface_goes_through_pipes() {
     place.done("generate torus -o in.stl");
     assert!(mesh == place.read("in.stl"));
     place.done("build in.stl -o out.neph");
+    // The contents of a binary STL say little: its length does, or the format that is named.
+    for format in ["", "--input-format stl"] {
+        let (file, report) = filter(&place, &format!("build - -o - {format}"), mesh.clone());
+        assert!(file == place.read("out.neph"));
+        assert!(report.starts_with("standard output\n  mesh      50,000 triangles"), "{report}");
+    }
     let file = place.read("out.neph");
 
     place.done("extract out.neph --triangles 10% -o lod.ply");
@@ -58,12 +64,27 @@ fn a_surface_goes_through_pipes() {
 }
 
 #[test]
+fn a_volume_goes_through_pipes() {
+    let place = Workplace::new();
+    let (mesh, _) = filter(&place, "generate ball --cells 6 -o - --output-format vtu", vec![]);
+    let (file, _) = filter(&place, "build - -o -", mesh.clone());
+    let (level, report) = filter(&place, "extract - --tetrahedra 50% -o - --output-format vtk --json", file);
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    assert!(number(&report, "tetrahedra") <= 540.0, "{report}");
+    place.write("in.vtu", mesh);
+    let (measured, _) = filter(&place, "measure in.vtu - --samples 1000 --json", level);
+    let measured: Value = serde_json::from_slice(&measured).expect("JSON");
+    assert!(number(&measured, "lower_bound") <= number(&report, "error"));
+}
+
+#[test]
 fn what_cannot_be_read_from_a_stream_is_told() {
     let place = Workplace::new();
     place.write("empty", "");
     for (line, what) in [
         ("info - ", "standard input: "),
         ("measure - empty", "standard input: "),
+        ("build - -o out.neph", "standard input: "),
         ("extract - --level 0 -o lod.ply", "standard input: "),
     ] {
         let mut command = place.command(line.split_whitespace());

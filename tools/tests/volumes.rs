@@ -51,7 +51,6 @@ fn kinds_are_not_mixed_up() {
         "extract volume.neph --level 0 -o lod.ply",
         "extract surface.neph --level 0 -o lod.vtu",
         "extract volume.neph --level 0 -o lod.msh",
-        "build in.ply -o other.neph --method fusion",
         "generate box -o box.ply",
     ] {
         let run = place.run(line);
@@ -68,7 +67,24 @@ fn kinds_are_not_mixed_up() {
         assert_eq!(run.status, 2, "{line}: {}", run.stderr);
         assert!(run.stderr.contains(option) && run.stderr.contains("holds a"), "{}", run.stderr);
     }
+    for (line, option) in [
+        ("build in.ply -o other.neph --method fusion", "--method needs a volume"),
+        ("build in.ply -o other.neph --field-weight 2", "--field-weight needs a volume"),
+        ("build in.ply -o other.neph --solution q.bin", "--solution needs a PLOT3D grid"),
+        ("build in.vtk -o other.neph --solution q.bin", "--solution needs a PLOT3D grid"),
+        ("build in.vtk -o other.neph --method jade", "--method needs a surface"),
+        ("build in.vtk -o other.neph --bound certified", "--bound needs a surface"),
+        ("build in.vtk -o other.neph --jade-k 100", "--jade-k needs a surface"),
+        ("build in.ply in.vtk --output-dir db --reduction 1", "--reduction needs a surface and --method"),
+        ("build in.vtk --output-dir db --placement best", "--placement needs a surface"),
+    ] {
+        let run = place.run(line);
+        assert_eq!(run.status, 2, "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(option), "{line}: {}", run.stderr);
+    }
     assert_eq!(place.files(), ["in.ply", "in.vtk", "surface.neph", "volume.neph"]);
+    // In a database an option concerns the parts for which it has a meaning.
+    place.done("build in.ply in.vtk --output-dir db --method progressive --field-weight 2");
 }
 
 /// Of a volume, `measure` takes the boundary, also beside a surface; the same grid in pieces is one grid.

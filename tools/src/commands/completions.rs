@@ -1,4 +1,4 @@
-//! `nephrite completions`: a script that teaches a shell to complete the command line.
+//! `nephrite completions`: a script that lets a shell complete command lines.
 
 use clap::CommandFactory;
 use clap_complete::Shell;
@@ -6,10 +6,10 @@ use serde_json::json;
 
 use crate::report::Report;
 
-/// Print the completion script of a shell.
+/// Print a script that lets a shell complete command lines.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Shell to write for
+    /// Shell that is to run the script
     shell: Shell,
 }
 

@@ -1,4 +1,4 @@
-//! `nephrite demo`: the whole story on one surface, in seconds.
+//! `nephrite demo`: all steps on one surface, in seconds.
 
 use std::fs;
 use std::hint::black_box;
@@ -17,10 +17,10 @@ use crate::report::Report;
 use crate::threads::Threads;
 use crate::{figures, files, interrupt, stopwatch};
 
-/// Tell the whole story on a built-in surface, in seconds.
+/// Build, query and extract levels of a built-in surface, in seconds.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder for the file of all levels and for some of them as meshes
+    /// Folder for the file and for some levels as meshes
     #[arg(short, long, value_name = "DIR", default_value = "nephrite-demo")]
     output: PathBuf,
 
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
 
 /// Vertices along each side of the cosine surface, as in the JADE paper.
 const SIDE: u32 = 120;
-/// Errors of the table, in percent of the diagonal, and the name of the mesh where one is written.
+/// Errors of the table, in percent of the diagonal, each with the name of its mesh if one is written.
 const ROWS: [(f64, Option<&str>); 8] = [
     (0.0, None),
     (0.02, None),
@@ -85,7 +85,7 @@ struct Row {
 }
 
 impl Row {
-    /// Times a cut, from the error to a filled index buffer, beside the naive way to the same triangles.
+    /// Measures the time from an error to a filled index buffer, by a cut and by the naive way.
     fn measure(percent_asked: f64, cut: Cut<'_>, history: &History, mesh: Option<PathBuf>) -> Self {
         let (lod, error) = (cut.lod(), cut.error());
         let mut indices = vec![0; cut.n_indices()];
@@ -125,7 +125,7 @@ impl Row {
     }
 }
 
-/// The naive way: looks at every triangle that ever lived and keeps those that are alive.
+/// The naive way: examines every triangle that ever lived and keeps those that are alive.
 fn scan(history: &History, error: f64, triangles: &mut Vec<[u32; 3]>) {
     triangles.clear();
     let step = history.errors.partition_point(|&stated| stated <= error).saturating_sub(1);

@@ -60,8 +60,8 @@ struct Selector {
     #[arg(long, value_name = "N")]
     tetrahedra: Option<Count>,
 
-    /// Of the levels before a leap of the error, the one whose reduction is nearest to R: 0 is the input, 1
-    /// leaves nothing
+    /// Of the levels near reduction R after which the error leaps, the nearest; R is from 0, the input, to
+    /// 1, nothing. Without a leap there, the level before the steepest rise
     #[arg(long, value_name = "R", value_parser = reduction)]
     inflection: Option<f64>,
 

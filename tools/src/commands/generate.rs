@@ -1,4 +1,4 @@
-//! `nephrite generate`: a surface made from a formula, written as a mesh.
+//! `nephrite generate`: writes a surface or volume made from a formula.
 
 use std::time::Instant;
 
@@ -15,14 +15,14 @@ use crate::report::Report;
 use crate::streams::Target;
 use crate::{figures, files, interrupt};
 
-/// Make a surface from a formula.
+/// Write a surface or volume made from a formula.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     kind: Kind,
 }
 
-/// Where the surface goes.
+/// Where the mesh goes.
 #[derive(Debug, clap::Args)]
 struct Output {
     /// Mesh to write, or - for standard output; the extension chooses the format
@@ -34,7 +34,7 @@ struct Output {
     output_format: Option<FileFormat>,
 }
 
-/// Squares, holes and edges of a drilled part; without them, those of the paper's part with seven holes.
+/// Squares, holes and edges of a drilled part; by default those of the paper's part with 7 holes.
 #[derive(Clone, Copy, Debug, clap::Args)]
 struct DrillingArguments {
     /// Squares along x; 3 by default
@@ -43,13 +43,13 @@ struct DrillingArguments {
     /// Squares along y; 3 by default
     #[arg(long, value_name = "N", value_parser = counts(1, 400))]
     rows: Option<u32>,
-    /// Squares with a hole, spread evenly; 7 by default, or all where there are fewer
+    /// Evenly spread squares with a hole; 7 by default, or all if there are fewer
     #[arg(long, value_name = "N", value_parser = counts(0, 160_000))]
     holes: Option<u32>,
-    /// Sides of each hole, rounded up to a multiple of four; a plate's are 40 by default, a shell's 20
+    /// Sides of each hole, rounded up to a multiple of 4; 40 by default for a plate, 20 for a shell
     #[arg(long, value_name = "N", value_parser = counts(4, 1024))]
     segments: Option<u32>,
-    /// Edges along the side of each square; 4 by default for a plate, 12 for a shell
+    /// Edges along each side of a square; 4 by default for a plate, 12 for a shell
     #[arg(long, value_name = "N", value_parser = counts(1, 24))]
     pieces: Option<u32>,
     /// Rings of triangles from a hole to its square; 1 by default for a plate, 3 for a shell
@@ -97,9 +97,9 @@ enum Kind {
         #[command(flatten)]
         to: Output,
     },
-    /// The unit sphere, an icosahedron subdivided
+    /// The unit sphere, a subdivided icosahedron
     Sphere {
-        /// Triangles to come near to
+        /// Approximate number of triangles
         #[arg(long, default_value_t = 50_000, value_parser = counts(20, 20_000_000))]
         triangles: u32,
         #[command(flatten)]
@@ -121,13 +121,13 @@ enum Kind {
         /// Vertices along each side
         #[arg(long, default_value_t = 257, value_parser = counts(2, 20_000))]
         side: u32,
-        /// Which hills
+        /// Seed of the hills
         #[arg(long, default_value_t = 1)]
         seed: u64,
         #[command(flatten)]
         to: Output,
     },
-    /// A plate with round holes through it, as a CAD system exports one; 3 x 3 squares with 7 holes make 2,624 triangles
+    /// A plate with round through-holes, as CAD systems export it; by default 7 holes and 2,624 triangles
     Plate {
         #[command(flatten)]
         drilling: DrillingArguments,
@@ -137,14 +137,14 @@ enum Kind {
         #[command(flatten)]
         to: Output,
     },
-    /// A thin bent shell with round holes; 3 x 3 squares with 7 holes make 1,132 triangles
+    /// A thin bent shell with round holes; by default 7 holes and 1,132 triangles
     Shell {
         #[command(flatten)]
         drilling: DrillingArguments,
         #[command(flatten)]
         to: Output,
     },
-    /// Two plates and the tubes that lead through both
+    /// Two plates, and tubes through both
     HeatExchanger {
         /// Tubes along x
         #[arg(long, default_value_t = 15, value_parser = counts(1, 400))]
@@ -152,7 +152,7 @@ enum Kind {
         /// Tubes along y
         #[arg(long, default_value_t = 5, value_parser = counts(1, 400))]
         rows: u32,
-        /// Sides of each tube, rounded up to a multiple of four
+        /// Sides of each tube, rounded up to a multiple of 4
         #[arg(long, default_value_t = 16, value_parser = counts(4, 1024))]
         segments: u32,
         #[command(flatten)]
@@ -177,9 +177,9 @@ enum Kind {
         #[command(flatten)]
         to: Output,
     },
-    /// The box [0, 1]^3 in tetrahedra, with a linear field
+    /// The cube [0, 1]^3 in tetrahedra, with a linear field
     Box {
-        /// Hexahedra along each edge, cut into five tetrahedra each
+        /// Hexahedra along each edge, each cut into 5 tetrahedra
         #[arg(long, default_value_t = 20, value_parser = counts(1, 400))]
         cells: u32,
         #[command(flatten)]
@@ -187,7 +187,7 @@ enum Kind {
     },
     /// The unit ball in tetrahedra, with the distance from the centre as a field
     Ball {
-        /// Hexahedra across it, cut into five tetrahedra each
+        /// Hexahedra across the ball, each cut into 5 tetrahedra
         #[arg(long, default_value_t = 24, value_parser = counts(1, 400))]
         cells: u32,
         #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `nephrite info`: what is inside a file, and how its triangles fall as the error rises.
+//! `nephrite info`: the contents of a file, and its curve of error against simplices.
 
 use clap::Args;
 use nephrite::Lod;
@@ -11,14 +11,14 @@ use crate::report::Report;
 use crate::streams::Source;
 use crate::{figures, files};
 
-/// Say what is inside a file.
+/// Show the contents of a file and its curve of error against triangles.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// File that `build` wrote, or - for standard input
     file: Source,
 }
 
-/// Rows of the curve that the text shows; JSON lists every level.
+/// Rows of the curve in the text; JSON lists every level.
 const SHOWN_LEVELS: usize = 24;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
@@ -60,7 +60,7 @@ fn json(lod: &Lod, metadata: &Metadata) -> Value {
     })
 }
 
-/// What levels state beside their errors: at the coarsest level, and level by level.
+/// Deviations beside the errors: of the coarsest level, and of each level.
 fn deviations(lod: &Lod) -> Vec<Value> {
     let deviations = lod.deviations();
     deviations.map(|(name, values)| json!({ "name": name, "max": values.last(), "levels": values })).collect()
@@ -103,7 +103,7 @@ fn text(arguments: &Arguments, lod: &Lod, metadata: &Metadata) -> String {
     format!("{}\n{list}\n{}", arguments.file, curve(lod))
 }
 
-/// Levels before which the error leaps.
+/// Levels after which the error leaps.
 fn inflections(lod: &Lod) -> Vec<Value> {
     let curve: Vec<_> = lod.curve().collect();
     let point = |level: u32| figures::curve_point(curve[level as usize], lod.simplex());
@@ -111,7 +111,7 @@ fn inflections(lod: &Lod) -> Vec<Value> {
     levels.map(|level| json!({ "level": level, "point": point(level) })).collect()
 }
 
-/// The same in words.
+/// The same as text.
 fn inflection_list(lod: &Lod) -> String {
     let counts: Vec<u32> = lod.curve().map(|point| point.simplices).collect();
     let levels = lod.inflections(INFLECTION_RATIO);
@@ -121,7 +121,7 @@ fn inflection_list(lod: &Lod) -> String {
     if words.is_empty() { "none".to_owned() } else { format!("after level {}", words.join(", ")) }
 }
 
-/// Changes of topology, each kind with its number and the error at which it happened first.
+/// Changes of topology: each kind with its count and the error at which it first happened.
 fn topology(log: &Value) -> String {
     let tallies = log["tallies"].as_array().map(Vec::as_slice).unwrap_or_default();
     let words = tallies.iter().filter_map(|tally| {
@@ -134,7 +134,7 @@ fn topology(log: &Value) -> String {
     if words.is_empty() { "kept".to_owned() } else { words.join("; ") }
 }
 
-/// The error-triangle curve, thinned out evenly where it is long.
+/// The curve; if it is long, evenly spread levels of it.
 fn curve(lod: &Lod) -> String {
     let points: Vec<_> = lod.curve().enumerate().collect();
     let last = points.len() - 1;

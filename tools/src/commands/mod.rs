@@ -1,15 +1,12 @@
-//! One file per command: its arguments and what it does with them.
+//! The commands, one file or folder each: arguments, and a function from them to a report.
 
 mod bench;
 mod build;
-mod build_volume;
 mod completions;
-mod database;
 mod demo;
 mod extract;
 mod generate;
 mod info;
-mod manifest;
 mod measure;
 mod plot;
 mod verify;
@@ -22,7 +19,7 @@ use crate::failure::Failure;
 use crate::report::{Form, Report, Stream};
 use crate::streams::Target;
 
-/// What the program can do.
+/// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(demo::Arguments),
@@ -44,6 +41,7 @@ impl Command {
     pub(crate) fn report_stream(&self) -> Stream {
         let target = match self {
             Self::Generate(arguments) => Some(arguments.target()),
+            Self::Build(arguments) => arguments.target(),
             Self::Extract(arguments) => Some(arguments.target()),
             Self::Measure(arguments) => arguments.target(),
             Self::Plot(arguments) => Some(arguments.target()),

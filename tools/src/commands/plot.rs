@@ -1,4 +1,4 @@
-//! `nephrite plot`: the error-triangle curve of files as a picture.
+//! `nephrite plot`: draws the curve of error against simplices of files.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `nephrite verify`: every checksum and every invariant of a file.
+//! `nephrite verify`: checks every checksum and every invariant of a file.
 
 use std::num::NonZeroU32;
 use std::time::Instant;
@@ -14,17 +14,18 @@ use crate::streams::Source;
 use crate::threads::Threads;
 use crate::{figures, files, progress};
 
-/// Check every checksum and every invariant of a file, and with `--bound` prove its errors anew.
+/// Check every checksum and every invariant of a file; with --bound, prove its errors again.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// File that `build` wrote, or - for standard input
     file: Source,
 
-    /// Prove from the file alone that every level is as near to the finest one as it says, both ways
+    /// Prove from the file alone that the distance of every level from level 0, in both directions, is at
+    /// most its stated error
     #[arg(long)]
     bound: bool,
 
-    /// With --bound: prove N levels spread over the file instead of all
+    /// With --bound: prove N evenly spread levels instead of all
     #[arg(long, value_name = "N", requires = "bound")]
     bound_levels: Option<NonZeroU32>,
 
@@ -52,11 +53,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     };
     let seconds = start.elapsed();
     let proven =
-        n_proven.map_or(String::new(), |n| format!(", the errors of {} proven anew", figures::count(n)));
+        n_proven.map_or(String::new(), |n| format!(", the errors of {} proven again", figures::count(n)));
     let simplex = lod.simplex();
     Ok(Report {
         text: format!(
-            "{}: in order, {} in {} levels{proven}, {}\n",
+            "{}: valid, {} in {} levels{proven}, {}\n",
             arguments.file,
             figures::simplices(lod.n_lifetimes(), simplex),
             figures::count(lod.n_levels()),
@@ -73,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     })
 }
 
-/// Proves the errors of all certified levels, or of `n_wanted` from the second to the last of them; returns how many.
+/// Proves the errors of all certified levels, or of `n_wanted` evenly spread ones. Returns their number.
 fn prove_errors(lod: &Lod, n_wanted: Option<NonZeroU32>) -> Result<u32, ReproveError> {
     let table = ErrorTable::new(lod)?;
     let last = table.last_certified();

@@ -1,4 +1,4 @@
-//! `nephrite view`: files in the browser, with a slider.
+//! `nephrite view`: shows files in the browser.
 
 use std::fs;
 use std::io;
@@ -14,29 +14,29 @@ use crate::report::{self, Form, Report, Stream};
 use crate::serve::{Body, Server, Site};
 use crate::{figures, files, interrupt};
 
-/// Look at files in the browser: any level of detail under a slider.
+/// Show files in the browser, with a slider over the levels of detail.
 ///
-/// Serves one page and the files named to this machine alone, opens the browser and goes on until Ctrl-C. The page brings all it
-/// needs and loads nothing from elsewhere.
+/// Serves one page and the files to this machine only, opens the browser, and runs until Ctrl-C. The page
+/// loads nothing from elsewhere.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Files that `build` wrote; several make a gallery
+    /// Files that `build` wrote; several files are shown as a gallery
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
-    /// Port to listen on; 0 takes any that is free
+    /// Port to listen on; 0 takes any free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
 
-    /// Address to listen on; any but this machine's own lets others see the files
+    /// Address to listen on; any other than the default lets others see the files
     #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     address: IpAddr,
 
-    /// Only print the address
+    /// Print the address and open no browser
     #[arg(long)]
     no_open: bool,
 
-    /// Write the page and copies of the files into a folder that any file server can serve, and end
+    /// Write the page and copies of the files into a folder, for any file server, and end
     #[arg(long, value_name = "DIR", conflicts_with_all = ["port", "address", "no_open"])]
     export: Option<PathBuf>,
 }
@@ -75,7 +75,7 @@ fn serve(arguments: &Arguments, site: Site, form: Form) -> Result<Report, Failur
     Ok(Report { text: String::new(), json: Value::Null })
 }
 
-/// Writes every address of the site as a file. What was in the folder before stays, but for files of the same names.
+/// Writes every address of the site as a file. Other files in the folder stay.
 fn export(site: &Site, folder: &Path) -> Result<Report, Failure> {
     let inputs: Vec<&Path> = site
         .entries()
@@ -97,7 +97,7 @@ fn export(site: &Site, folder: &Path) -> Result<Report, Failure> {
     let n_files = inputs.len();
     Ok(Report {
         text: format!(
-            "{}: the page and {}, {} in all. Any file server will do, such as\n  python3 -m http.server -d {}\n",
+            "{}: the page and {}, {} in all. To serve them:\n  python3 -m http.server -d {}\n",
             folder.display(),
             figures::counted(n_files, "file"),
             figures::bytes(n_bytes),
@@ -107,7 +107,7 @@ fn export(site: &Site, folder: &Path) -> Result<Report, Failure> {
     })
 }
 
-/// Publishes what an address holds; returns its length in bytes.
+/// Publishes the contents of an address; returns their length in bytes.
 fn write(output: &Path, body: &Body) -> io::Result<u64> {
     let mut n_bytes = 0;
     nephrite_formats::publish(output, |out| {

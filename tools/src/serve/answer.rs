@@ -1,4 +1,4 @@
-//! From a request to its answer.
+//! The answer to a request.
 
 use std::fs::Metadata;
 use std::io::{self, SeekFrom};
@@ -18,14 +18,14 @@ use tokio_util::io::ReaderStream;
 use super::range::{self, Part};
 use super::site::{Body, Site};
 
-/// What a client gets.
+/// A response with any of the bodies below.
 pub(super) type Answer = Response<BoxBody<Bytes, io::Error>>;
 
-/// Bytes of a file that are in memory for one answer.
+/// Bytes of a file that are in memory at a time for one answer.
 const READ_BYTES: usize = 1 << 16;
 
-/// Goes with every answer. The page asks for nothing from elsewhere and may not; isolation from other pages gives it a
-/// clock fine enough to time queries with.
+/// Headers of every answer. They forbid the page to load anything from elsewhere, and isolate it from other
+/// pages, which gives it a clock fine enough to time queries.
 const ALWAYS: [(HeaderName, &str); 7] = [
     (header::CACHE_CONTROL, "no-store"),
     (
@@ -39,11 +39,11 @@ const ALWAYS: [(HeaderName, &str); 7] = [
     (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
 ];
 
-/// Answers one request. `is_private` says that only this machine can reach the server.
+/// Answers one request. `is_private` is true if only this machine can reach the server.
 pub(super) async fn answer<B>(site: &Site, is_private: bool, request: &Request<B>) -> Answer {
     let refuse = |status, words: &'static str| finish(plain(status), Bytes::from_static(words.as_bytes()));
     if is_private && !names_this_machine(request.headers()) {
-        // Else any page on the web could have its own name point here and read along.
+        // A page on the web could make its own name point here, and read the files.
         return refuse(StatusCode::MISDIRECTED_REQUEST, "this server answers only to its own address\n");
     }
     if !matches!(*request.method(), Method::GET | Method::HEAD) {
@@ -72,8 +72,8 @@ pub(super) async fn answer<B>(site: &Site, is_private: bool, request: &Request<B
     answer
 }
 
-/// The file or the part of it that is asked for. It is opened for this answer alone: a file that is replaced is another file, with
-/// another tag.
+/// The file, or the part of it that is asked for. It is opened for this answer: a file that was replaced
+/// is another file, with another tag.
 async fn file(path: &Path, headers: &HeaderMap, content_type: &str) -> io::Result<Answer> {
     let mut file = File::open(path).await?;
     let metadata = file.metadata().await?;

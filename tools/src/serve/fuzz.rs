@@ -1,4 +1,5 @@
-//! Clients that send any bytes. Runs for a second under `cargo test`, and under libFuzzer through `fuzz/run answer_requests`.
+//! Clients that send any bytes. Runs for a second under `cargo test`, and under libFuzzer by
+//! `fuzz/run answer_requests`.
 
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
@@ -11,11 +12,11 @@ use super::range::{self, Part};
 use super::{Site, connection};
 use crate::page::Asset;
 
-/// Bytes of the one file that is served, and of one beside it that is not.
+/// Bytes of the file that is served, and of one beside it that is not.
 const SERVED: &[u8] = b"0123456789";
 const SECRET: &[u8] = b"nobody may read this";
 
-/// Longest that a conversation may take, in the runtime's time, which jumps ahead whenever everybody waits.
+/// Longest time of a connection, on the clock of the runtime, which jumps ahead when all tasks wait.
 const LONGEST: Duration = Duration::from_secs(60);
 
 /// A site of a page and a file. The folder goes with the process.
@@ -60,7 +61,7 @@ async fn converse(bytes: &[u8]) -> Vec<u8> {
     answered
 }
 
-/// Answers begin as HTTP does, tell of no fault of the server, and hold nothing but what the site lists.
+/// Answers begin as HTTP does, report no fault of the server, and hold only what the site lists.
 fn check_answers(bytes: &[u8], answered: &[u8]) {
     let holds = |part: &[u8]| answered.windows(part.len()).any(|window| window == part);
     assert!(answered.is_empty() || answered.starts_with(b"HTTP/1."), "{}", answered.escape_ascii());

@@ -1,8 +1,9 @@
-//! The server of `nephrite view`: a few fixed addresses, each a part of the page or one of the files named.
+//! The server of `nephrite view`: a few fixed addresses, each a part of the page or one of the files.
 //!
-//! No address is ever turned into a path: [`Site`] is a table, and what it does not list does not exist. HTTP itself is hyper's, whose
-//! parser meets hostile bytes every day; smaller crates serve too, but the likely one (`tiny_http`) has had no release
-//! since 2022. hyper knows no ranges, so [`range`] reads the one header that is needed (RFC 9110, section 14).
+//! No address becomes a path: [`Site`] is a table, and an address that it does not list does not exist.
+//! HTTP is left to the crate hyper, whose parser is exposed to hostile bytes every day; the nearest smaller
+//! crate, `tiny_http`, has had no release since 2022. hyper does not handle ranges, so [`range`] reads the
+//! one header that is needed (RFC 9110, section 14).
 
 mod answer;
 #[cfg(test)]
@@ -29,24 +30,24 @@ use self::answer::Answer;
 pub(crate) use self::site::{Body, Site};
 use crate::interrupt;
 
-/// Time a client has to send the head of a request, and a request has to end once the server stops.
+/// Time for a client to send the head of a request, and for a request to end once the server stops.
 const PATIENCE: Duration = Duration::from_secs(10);
 const PARTING: Duration = Duration::from_millis(500);
-/// How often the server looks whether somebody pressed Ctrl-C.
+/// Interval at which the server looks for an interrupt.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// A server that has its address but answers nobody yet.
+/// A server that has its address but does not answer yet.
 pub(crate) struct Server {
     listener: TcpListener,
     address: SocketAddr,
 }
 
 impl Server {
-    /// Takes a port of an address; 0 stands for any that is free.
+    /// Takes a port of an address; 0 stands for any free one.
     ///
     /// # Errors
     ///
-    /// The port is taken, or the address is none of this machine.
+    /// The port is taken, or this machine does not have the address.
     pub(crate) fn bind(address: IpAddr, port: u16) -> io::Result<Self> {
         let listener = TcpListener::bind((address, port))?;
         listener.set_nonblocking(true)?;
@@ -54,11 +55,11 @@ impl Server {
         Ok(Self { listener, address })
     }
 
-    /// What to type into a browser.
+    /// The address for a browser.
     pub(crate) fn url(&self) -> String {
         let ip = self.address.ip();
         let host = match ip {
-            // Listening everywhere is no place to go to.
+            // The address that means all addresses is none that a browser can open.
             ip if ip.is_unspecified() => "localhost".to_owned(),
             IpAddr::V4(ip) => ip.to_string(),
             IpAddr::V6(ip) => format!("[{ip}]"),
@@ -66,11 +67,11 @@ impl Server {
         format!("http://{host}:{}/", self.address.port())
     }
 
-    /// Answers until somebody presses Ctrl-C; a second later at most it has ended.
+    /// Answers requests until an interrupt, and ends at most a second after it.
     ///
     /// # Errors
     ///
-    /// The system has no room for a server. What goes wrong with one client concerns only that client.
+    /// The system cannot run a server. An error with one client ends that client's connection only.
     pub(crate) fn run(self, site: Site) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let is_private = self.address.ip().is_loopback();
@@ -88,9 +89,9 @@ async fn serve(listener: TcpListener, site: Arc<Site>, is_private: bool) -> io::
         tokio::select! {
             _ = pulse.tick() => if interrupt::is_requested() { break },
             accepted = listener.accept() => match accepted {
-                // A client that goes away in the middle is its own affair.
+                // A client that goes away concerns nobody else.
                 Ok((stream, _)) => drop(tokio::spawn(connections.watch(connection(stream, &site, is_private)))),
-                // Out of descriptors, for one: those in use are given back in time.
+                // Such as no free descriptor: those in use become free again.
                 Err(_) => time::sleep(PULSE).await,
             }
         }
@@ -99,8 +100,8 @@ async fn serve(listener: TcpListener, site: Arc<Site>, is_private: bool) -> io::
     Ok(())
 }
 
-/// The conversation with one client over its stream: a future that ends when the client has gone, or was silent for too long in
-/// the middle of a request's head.
+/// The connection with one client: a future that ends when the client has gone, or did not send the head
+/// of a request in time.
 fn connection<S: AsyncRead + AsyncWrite + Unpin>(
     stream: S,
     site: &Arc<Site>,

@@ -1,9 +1,10 @@
-//! The header `Range` (RFC 9110, section 14), as far as one range of bytes goes.
+//! The header `Range` (RFC 9110, section 14), limited to one range of bytes.
 
 /// Which part of a body a request asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
-    /// All of it: no range, several, or a range that is none. A server may answer these with the whole.
+    /// All of it: no range, several ranges, or one that cannot be read. A server may answer these with the
+    /// whole.
     Whole,
     /// Bytes `first..=last`, both inside the body.
     Bytes {
@@ -16,12 +17,12 @@ pub(crate) enum Part {
     Beyond,
 }
 
-/// What the value of a header `Range` means for a body of `n_bytes`.
+/// The part that a header `Range` asks for, of a body of `n_bytes`.
 pub(crate) fn part(header: &str, n_bytes: u64) -> Part {
     asked(header, n_bytes).unwrap_or(Part::Whole)
 }
 
-/// `None` for what is no single range of bytes.
+/// `None` unless the header is a single range of bytes.
 fn asked(header: &str, n_bytes: u64) -> Option<Part> {
     let (unit, set) = header.split_once('=')?;
     let (first, last) = set.trim().split_once('-')?;

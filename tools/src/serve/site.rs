@@ -1,4 +1,4 @@
-//! Everything that can be asked for, under its address.
+//! All addresses of the site and their contents.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,37 +10,38 @@ use serde_json::json;
 use crate::failure::Failure;
 use crate::page::Asset;
 
-/// Characters of a name that an address may show as they are; all others are replaced.
+/// Characters of a name that stay in its address beside letters and digits; others are replaced.
 const PLAIN: &str = "-_.+";
 
-/// What an address holds.
+/// The contents of an address.
 pub(crate) enum Body {
-    /// Bytes that this program brings or makes.
+    /// Bytes in memory.
     Bytes(Vec<u8>),
-    /// A file, opened anew for every request.
+    /// A file, opened for every request.
     File(PathBuf),
 }
 
 /// One address.
 pub(crate) struct Entry {
-    /// What the bytes are.
+    /// Media type of the bytes.
     pub(crate) content_type: &'static str,
     /// The bytes.
     pub(crate) body: Body,
 }
 
-/// The page and the files that it shows: addresses without the slash in front. Served or exported, it is the same.
+/// The page and the files that it shows, by their addresses without the first slash. It is the same
+/// whether it is served or exported.
 pub(crate) struct Site {
     entries: BTreeMap<String, Entry>,
 }
 
 impl Site {
-    /// A site of the page's parts and of `files`, whose names in the site come from their paths. `is_live` tells the page that
-    /// the files may change while it shows them.
+    /// A site of the parts of the page and of `files`, named after their paths. `is_live` tells the page
+    /// that the files may change while it shows them.
     ///
     /// # Errors
     ///
-    /// A file that is not there or is no file.
+    /// A path without a regular file.
     pub(crate) fn new(assets: &[Asset], files: &[PathBuf], is_live: bool) -> Result<Self, Failure> {
         let mut entries = BTreeMap::new();
         for asset in assets {
@@ -66,20 +67,20 @@ impl Site {
         Ok(Self { entries })
     }
 
-    /// What is at the path of a request, which begins with a slash.
+    /// The entry at the path of a request, which begins with a slash.
     pub(crate) fn find(&self, path: &str) -> Option<&Entry> {
         let address = path.strip_prefix('/')?;
         self.entries.get(if address.is_empty() { "index.html" } else { address })
     }
 
-    /// All addresses with what they hold.
+    /// All addresses and entries.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (&str, &Entry)> {
         self.entries.iter().map(|(address, entry)| (address.as_str(), entry))
     }
 }
 
-/// The name to show for a file and a free address for it. Addresses are made of characters that mean themselves in a URL
-/// and in every file system.
+/// The name to show for a file, and a free address for it. Addresses consist of characters without special
+/// meaning in URLs and file systems.
 fn name(path: &Path, taken: &BTreeMap<String, Entry>) -> (String, String) {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let plain: String = name

@@ -1,17 +1,17 @@
-//! Measuring out of cache: what a processor or a system keeps close is driven out before each sample.
+//! Clears the caches of the processor and of the system before a sample.
 
 use std::fs::File;
 use std::hint::black_box;
 use std::io;
 use std::path::Path;
 
-/// More than the caches of usual processors hold.
+/// More than the caches of common processors hold.
 const FLUSH_BYTES: usize = 128 << 20;
 
 /// Bytes of a cache line.
 const LINE_BYTES: usize = 64;
 
-/// Memory that is walked through to drive everything else out of the processor's caches.
+/// Memory that is read to evict everything else from the caches of the processor.
 pub(super) struct CacheFlush {
     memory: Vec<u8>,
 }
@@ -30,7 +30,7 @@ impl CacheFlush {
     }
 }
 
-/// Asks the system to forget what it keeps of a file in memory; whether it can be asked.
+/// Asks the system to drop a file from its page cache; returns whether it can be asked.
 ///
 /// # Errors
 ///
@@ -44,7 +44,7 @@ pub(super) fn forget_file(path: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Asks the system to forget what it keeps of a file in memory; whether it can be asked.
+/// Asks the system to drop a file from its page cache; returns whether it can be asked.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! `nephrite bench`: how fast this machine takes levels out of a file, beside copying the same bytes plainly.
+//! `nephrite bench`: the rate at which this machine extracts levels of a file, beside plain copies.
 
 mod memory;
 
@@ -18,17 +18,17 @@ use crate::streams::Source;
 use crate::{figures, files, stopwatch};
 use memory::{CacheFlush, forget_file};
 
-/// Measure how fast levels come out of a file on this machine.
+/// Measure the rate at which this machine extracts levels of a file, beside plain copies of the same bytes.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// File that `build` wrote, or - for standard input
     file: Source,
 }
 
-/// Cuts measured at most, spread over the levels evenly in the logarithm of the triangle count.
+/// Most cuts that are measured, evenly spread in the logarithm of the simplex count.
 const N_CUTS: u32 = 12;
 
-/// What one cut costs.
+/// The cost of one cut.
 struct Measured {
     level: u32,
     n_simplices: usize,
@@ -37,7 +37,7 @@ struct Measured {
     extract_per_second: f64,
     parallel_per_second: f64,
     memcpy_per_second: f64,
-    /// The same two with nothing of theirs in the processor's caches.
+    /// The same two with cold processor caches.
     far_per_second: f64,
     far_memcpy_per_second: f64,
     /// Vertices transformed per triangle with a cache of 16, drawn as runs and as an ordered copy.
@@ -46,7 +46,7 @@ struct Measured {
 }
 
 impl Measured {
-    /// Extraction as a part of memcpy.
+    /// Rate of extraction divided by that of memcpy.
     fn ratio(&self) -> f64 {
         self.extract_per_second / self.memcpy_per_second
     }
@@ -120,8 +120,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     ];
     let n_threads = rayon::current_num_threads();
     let legend = format!(
-        "M/s: millions of {simplices} per second. All threads: {n_threads}. Misses: vertices transformed per triangle with a cache of {CACHE_LEN}, drawn as runs and as a copy \
-         in cache order.\n"
+        "M/s: millions of {simplices} per second. All threads: {n_threads}. Misses: vertices transformed per triangle with a cache of {CACHE_LEN} vertices, drawn as runs and \
+         as an ordered copy.\n"
     );
     Ok(Report {
         text: figures::table(headings, &rows)
@@ -137,11 +137,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     })
 }
 
-/// Seconds that reading the whole file and checking its head takes.
+/// Seconds to read the whole file and check its head.
 struct Opening {
-    /// From the system's memory.
+    /// From the page cache of the system.
     warm_seconds: f64,
-    /// From the disk; `None` where the system cannot be asked to forget a file.
+    /// From the disk; `None` if the page cache cannot be cleared.
     cold_seconds: Option<f64>,
 }
 
@@ -160,7 +160,7 @@ impl Opening {
     }
 }
 
-/// Levels whose triangle counts are evenly apart in the logarithm, each once, finest first.
+/// Levels whose simplex counts are evenly apart in the logarithm, each once, finest first.
 fn spread_levels(lod: &Lod) -> Vec<u32> {
     let [finest, coarsest] =
         [0, lod.n_levels() - 1].map(|level| lod.at_level(level).n_simplices().max(1) as f64);

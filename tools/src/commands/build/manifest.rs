@@ -1,4 +1,5 @@
-//! The list of a database's parts: a file of JSON lines that grows while parts are built and is put in order in the end.
+//! The manifest of a database: a file of JSON lines, one for each part. It grows while parts are built and
+//! is put in order at the end.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
@@ -10,30 +11,30 @@ use serde_json::Value;
 
 use crate::failure::Failure;
 
-/// Name of the list in the database's folder.
+/// Name of the manifest in the folder of the database.
 const MANIFEST: &str = "manifest.jsonl";
 
-/// What decides whether a part has to be built anew.
+/// What decides whether a part must be built again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Facts {
-    /// File made of it.
+    /// File made of the part.
     pub(super) output: String,
-    /// Checksum of its bytes.
+    /// Checksum of the bytes of the part.
     pub(super) content: String,
     /// Checksum of the options.
     pub(super) options: String,
 }
 
-/// A line of the list: where it is, and the little that is needed of it. Its text is longer by far and stays in the file.
+/// A line of the manifest: its place and the few values that are needed. Its long text stays in the file.
 #[derive(Clone, Debug)]
 pub(super) struct Line {
-    /// Nothing for a part that failed.
+    /// `None` for a part that failed.
     pub(super) facts: Option<Facts>,
     pub(super) file_bytes: Option<u64>,
     pub(super) n_triangles: u64,
     pub(super) n_tetrahedra: u64,
     pub(super) is_failed: bool,
-    /// Written by an earlier run.
+    /// True if an earlier run wrote the line.
     pub(super) is_unchanged: bool,
     start: u64,
     len: usize,
@@ -57,7 +58,7 @@ impl Line {
     }
 }
 
-/// The list while it grows.
+/// The manifest while it grows.
 pub(super) struct Manifest {
     path: PathBuf,
     /// The file and its length.
@@ -65,12 +66,14 @@ pub(super) struct Manifest {
 }
 
 impl Manifest {
-    /// The list of a folder, and the lines of earlier runs by part, the last of each. Lines behind one that is cut off are left out. The
-    /// file is locked where that is known to work: two builds of one database would write into each other's lines.
+    /// Opens the manifest of a folder. Returns it with the last line of each part from earlier runs. Lines
+    /// behind one that is cut off are left out. The file is locked where locks are known to work, as two
+    /// builds of one database would mix their lines.
     ///
     /// # Errors
     ///
-    /// When the file cannot be read or written, is written by another process, or begins with something else than a line.
+    /// The file cannot be read or written, another process writes it, or it does not begin with a line of a
+    /// manifest.
     pub(super) fn open(folder: &Path) -> Result<(Self, BTreeMap<PathBuf, Line>), Failure> {
         let path = folder.join(MANIFEST);
         let opened = open(&path).map_err(|source| Failure::file(&path, source))?;
@@ -78,7 +81,7 @@ impl Manifest {
         Ok((Self { path, file: Mutex::new((file, len)) }, known))
     }
 
-    /// Adds a line at once; where that fails, the part is built again next time.
+    /// Adds a line at once. If that fails, the part is built again next time.
     pub(super) fn append(&self, value: &Value) -> Line {
         let text = format!("{value}\n");
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
@@ -93,11 +96,11 @@ impl Manifest {
         Line::new(value, start, text.len())
     }
 
-    /// Puts a list of these lines, in their order, in the place of the one that grew.
+    /// Replaces the manifest by these lines, in their order.
     ///
     /// # Errors
     ///
-    /// When it cannot be read or replaced.
+    /// The manifest cannot be read or replaced.
     pub(super) fn replace(self, lines: &[Line]) -> Result<(), Failure> {
         let (mut file, _) = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
         let mut text = Vec::new();
@@ -133,10 +136,7 @@ fn open(path: &Path) -> io::Result<(File, u64, BTreeMap<PathBuf, Line>)> {
                 known.insert(PathBuf::from(part), line);
             }
         } else if start == 0 && !text.starts_with(b"{") {
-            return Err(io::Error::new(
-                ErrorKind::InvalidData,
-                "is something else than the list of a database",
-            ));
+            return Err(io::Error::new(ErrorKind::InvalidData, "is not the manifest of a database"));
         } else {
             break;
         }
