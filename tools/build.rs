@@ -1,7 +1,7 @@
 //! Bundles the page of `nephrite view` out of `page/`, with the tools that its lock file names.
 //!
-//! Node.js and npm are needed for that and for nothing else. Where they are missing the program is built all the same, one
-//! line says what it lacks, and `nephrite view` says it again.
+//! Node.js and npm are needed for that and for nothing else. Where they are missing the program is
+//! built all the same, one line says what it lacks, and `nephrite view` says it again.
 #![allow(missing_docs, reason = "a build script has no pages")]
 
 use std::error::Error;

@@ -11,7 +11,8 @@ Example:
   nephrite build bunny.ply -o bunny.neph
   nephrite extract bunny.neph --error 0.2% -o lod.ply";
 
-/// Build one file that holds every level of detail of a mesh, each with a bounded error, and use it.
+/// Build one file that holds every level of detail of a mesh, each with a bounded error, and use
+/// it.
 ///
 /// Lengths are in the units of the mesh; with a trailing % they are in percent of its bounding box
 /// diagonal. A mesh or file named - is standard input or output.
@@ -26,8 +27,8 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Prints on standard error that the arguments of a command are wrong, in the form of clap: the message,
-/// the usage of the command, and where to find help.
+/// Prints on standard error that the arguments of a command are wrong, in the form of clap: the
+/// message, the usage of the command, and where to find help.
 pub(crate) fn print_wrong_usage(matches: &ArgMatches, message: &str) {
     let mut command = Arguments::command();
     command.build();

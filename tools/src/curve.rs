@@ -28,8 +28,8 @@ pub(crate) struct Curve {
     pub(crate) points: Vec<(f64, f64)>,
 }
 
-/// Draws curves into one picture. Levels without error or without simplices have no place on logarithmic
-/// axes and are left out. `simplices` names what is counted.
+/// Draws curves into one picture. Levels without error or without simplices have no place on
+/// logarithmic axes and are left out. `simplices` names what is counted.
 pub(crate) fn svg(title: &str, simplices: &str, curves: &[Curve]) -> String {
     let drawn = |curve: &Curve| -> Vec<(f64, f64)> {
         curve
@@ -101,7 +101,8 @@ impl Axis {
             .filter(|(value, _)| (self.from..=self.to).contains(&value.log10()))
     }
 
-    /// Whether a grid line gets its number: all decades, and steps 2 and 5 if there are few decades.
+    /// Whether a grid line gets its number: all decades, and steps 2 and 5 if there are few
+    /// decades.
     fn is_labelled(&self, value: f64, is_decade: bool) -> bool {
         let first_digit = value / 10f64.powf(value.log10().floor());
         let is_two_or_five = [2.0, 5.0].iter().any(|digit| (first_digit - digit).abs() < 1e-6);

@@ -13,7 +13,8 @@ use crate::meshes;
 use crate::report;
 use crate::streams::{Source, Target};
 
-/// Opens a file that `build` wrote. The file is read and not mapped, as anybody may change it meanwhile.
+/// Opens a file that `build` wrote. The file is read and not mapped, as anybody may change it
+/// meanwhile.
 ///
 /// # Errors
 ///
@@ -73,7 +74,8 @@ pub(crate) fn check_head(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 ///
-/// A folder that is missing, a folder in the file's place, or an output that would replace an input.
+/// A folder that is missing, a folder in the file's place, or an output that would replace an
+/// input.
 pub(crate) fn check_target(target: &Target, inputs: &[&Path]) -> Result<(), Failure> {
     target.path().map_or(Ok(()), |path| check_output(path, inputs))
 }

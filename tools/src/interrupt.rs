@@ -1,4 +1,5 @@
-//! Ctrl-C: the first asks the command to stop before it writes anything, the second ends the process.
+//! Ctrl-C: the first asks the command to stop before it writes anything, the second ends the
+//! process.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,8 +10,8 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// Takes over Ctrl-C, SIGTERM and SIGHUP for the rest of the process.
 ///
-/// If the system refuses, an interrupt ends the process in the default way. Files are published by rename,
-/// so none is half-written even then.
+/// If the system refuses, an interrupt ends the process in the default way. Files are published by
+/// rename, so none is half-written even then.
 pub(crate) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if REQUESTED.swap(true, Ordering::Relaxed) {

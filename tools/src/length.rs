@@ -1,7 +1,7 @@
 //! Lengths and counts as a person types them: absolute, or in percent.
 //!
-//! A length is in the mesh's own units or in percent of its bounding box diagonal; a count of simplices
-//! is a number or in percent of those of the input.
+//! A length is in the mesh's own units or in percent of its bounding box diagonal; a count of
+//! simplices is a number or in percent of those of the input.
 
 use std::str::FromStr;
 

@@ -83,12 +83,13 @@ pub(crate) struct Read {
     pub(crate) report: FileReport,
 }
 
-/// Reads a surface or a volume. The format is `format` if given, else the one that the extension names,
-/// else the one that the contents show.
+/// Reads a surface or a volume. The format is `format` if given, else the one that the extension
+/// names, else the one that the contents show.
 ///
 /// # Errors
 ///
-/// [`MeshError`] with the name of the source, and [`Failure::IsBuilt`] for a file that `build` wrote.
+/// [`MeshError`] with the name of the source, and [`Failure::IsBuilt`] for a file that `build`
+/// wrote.
 pub(crate) fn read(source: &Source, format: Option<FileFormat>) -> Result<Read, Failure> {
     if let (Source::File(path), None) = (source, format)
         && let Some(format) = format_of_name(path)
@@ -217,8 +218,8 @@ fn wrong_kind(target: &Target, format: FileFormat, simplex: Simplex) -> Failure 
     Failure::Kind { output: target.to_string(), format: format.to_string(), kind }
 }
 
-/// The format of the mesh in a file, as far as name and first bytes tell; `None` also for a file that
-/// cannot be read.
+/// The format of the mesh in a file, as far as name and first bytes tell; `None` also for a file
+/// that cannot be read.
 pub(crate) fn looks_like_mesh(path: &Path) -> Option<FileFormat> {
     const LOOKED_AT_BYTES: u64 = 64 * 1024;
     let mut bytes = Vec::new();

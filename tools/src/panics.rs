@@ -1,9 +1,9 @@
 //! A panic told in one line.
 //!
-//! A panic is a bug of this program. It must not take the other parts of a database with it, and the
-//! person who meets it should read one sentence and not a page of code. The hook notes what panicked
-//! and where; [`catch`] makes a failure of it. With `RUST_BACKTRACE` set the usual output appears as
-//! well.
+//! A panic is a bug of this program. It must not take the other parts of a database with it, and
+//! the person who meets it should read one sentence and not a page of code. The hook notes what
+//! panicked and where; [`catch`] makes a failure of it. With `RUST_BACKTRACE` set the usual output
+//! appears as well.
 
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};

@@ -52,7 +52,8 @@ pub(crate) fn svg(title: &str, panels: &[Panel<'_>], bounding_diagonal: f64) -> 
     svg
 }
 
-/// Draws the title, the bars in the colours of their distances, and the fraction of the tallest one.
+/// Draws the title, the bars in the colours of their distances, and the fraction of the tallest
+/// one.
 fn draw_bars(svg: &mut String, panel: &Panel<'_>) {
     let bins = &panel.histogram.bins;
     let tallest = bins.iter().copied().fold(0.0, f64::max);

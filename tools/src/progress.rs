@@ -1,5 +1,5 @@
-//! Progress bars on standard error: of a build with its phase, simplices left, error and time left, and of
-//! a proof.
+//! Progress bars on standard error: of a build with its phase, simplices left, error and time left,
+//! and of a proof.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -12,7 +12,8 @@ use crate::{figures, interrupt};
 /// Steps of the bar: more than a terminal has columns.
 const BAR_STEPS: u64 = 1000;
 
-/// The bar of one build. It is drawn only if standard error is a terminal, and cleared when dropped.
+/// The bar of one build. It is drawn only if standard error is a terminal, and cleared when
+/// dropped.
 pub(crate) struct BuildBar {
     bar: ProgressBar,
     start: Instant,
@@ -88,9 +89,9 @@ fn phase_name(phase: Phase) -> &'static str {
 
 /// Fraction of the removals that are done, from 0 to 1.
 ///
-/// The error of a smooth surface is in inverse proportion to its triangles. So a build that stops at
-/// `max_error` can be expected to end with `n_triangles * error / max_error` triangles, and one without a
-/// limit with nearly none.
+/// The error of a smooth surface is in inverse proportion to its triangles. So a build that stops
+/// at `max_error` can be expected to end with `n_triangles * error / max_error` triangles, and one
+/// without a limit with nearly none.
 fn fraction_done(progress: &Progress) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a bar is no finer")]
     let [alive, input] = [progress.n_triangles, progress.n_triangles_in].map(|count| count as f64);

@@ -1,7 +1,7 @@
 //! Colours for distances: dark blue for 0, yellow for the largest.
 
-/// Viridis at 9 even steps (Smith and van der Walt, 2015, CC0): equal steps look equally large, also in
-/// grey and to most colour-blind people.
+/// Viridis at 9 even steps (Smith and van der Walt, 2015, CC0): equal steps look equally large,
+/// also in grey and to most colour-blind people.
 const VIRIDIS: [[u8; 3]; 9] = [
     [68, 1, 84],
     [71, 45, 123],

@@ -74,14 +74,15 @@ pub(crate) fn note(line: &str) {
     let _ = writeln!(io::stderr(), "{}", printable(line));
 }
 
-/// Replaces the characters that steer a terminal: names and metadata may come from files of strangers.
+/// Replaces the characters that steer a terminal: names and metadata may come from files of
+/// strangers.
 pub(crate) fn printable(text: &str) -> String {
     let is_harmless = |c: char| !steers(c) || matches!(c, '\n' | '\t');
     text.chars().map(|c| if is_harmless(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
 
-/// Writes those characters as JSON escapes, which have the same meaning: in JSON they occur only inside
-/// strings.
+/// Writes those characters as JSON escapes, which have the same meaning: in JSON they occur only
+/// inside strings.
 fn escaped(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {

@@ -26,7 +26,8 @@ pub(crate) fn alone(mut work: impl FnMut()) -> f64 {
     median::<N_SAMPLES>(std::array::from_fn(|_| seconds_per_call(&mut work, n_calls)))
 }
 
-/// Median seconds of a piece of work that is done once after each preparation, whose time does not count.
+/// Median seconds of a piece of work that is done once after each preparation, whose time does not
+/// count.
 pub(crate) fn after(mut prepare: impl FnMut(), mut work: impl FnMut()) -> f64 {
     let mut seconds = [0.0; N_PREPARED_SAMPLES];
     for seconds in &mut seconds {

@@ -13,8 +13,8 @@ pub(crate) enum MethodName {
     Jade,
     /// Fusion of tetrahedra, for volumes
     Fusion,
-    /// Edge collapses and vertex splits, which change the topology if they must: any reduction, down to no
-    /// triangle
+    /// Edge collapses and vertex splits, which change the topology if they must: any reduction,
+    /// down to no triangle
     Progressive,
 }
 
@@ -59,7 +59,8 @@ pub(crate) enum PlacementName {
     /// Where the input has them
     #[default]
     Original,
-    /// Where the error is least: about 11 % fewer triangles for an error, in a file about twice as long
+    /// Where the error is least: about 11 % fewer triangles for an error, in a file about twice as
+    /// long
     Best,
 }
 

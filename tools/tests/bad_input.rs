@@ -24,7 +24,8 @@ end_header
 3 0 3 2
 ";
 
-/// Checks that no command makes anything of a mesh file, and that the line on stderr says `what` is wrong.
+/// Checks that no command makes anything of a mesh file, and that the line on stderr says `what` is
+/// wrong.
 fn assert_refused(name: &str, contents: &[u8], what: &str) {
     let place = Workplace::new();
     place.write(name, contents);

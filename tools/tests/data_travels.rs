@@ -10,7 +10,8 @@ use support::{Workplace, index};
 
 const SIDE: i32 = 12;
 
-/// A wavy square as ASCII PLY: colours and a weight that follow from the position, shifted by `origin` in doubles.
+/// A wavy square as ASCII PLY: colours and a weight that follow from the position, shifted by
+/// `origin` in doubles.
 fn wavy_square(origin: f64) -> String {
     let mut text = format!(
         "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n\

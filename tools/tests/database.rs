@@ -1,4 +1,5 @@
-//! A database of parts is built beside the parts that are bad, goes on where it was, and leaves alone what is unchanged.
+//! A database of parts is built beside the parts that are bad, goes on where it was, and leaves
+//! alone what is unchanged.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 

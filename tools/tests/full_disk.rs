@@ -1,4 +1,5 @@
-//! On a disk that is really full, a small one in memory, a build fails with one line and leaves the old file and nothing else.
+//! On a disk that is really full, a small one in memory, a build fails with one line and leaves the
+//! old file and nothing else.
 #![cfg(target_os = "linux")]
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "a panic is how a test fails")]
 
@@ -8,8 +9,9 @@ use std::process::Command;
 
 use support::Workplace;
 
-/// Mounts a disk of `$1` KiB on `disk`, puts the old file there, and runs the commands on it. Prints their status, whether
-/// the old file is still there as it was, whether a new one verifies, and the number of files.
+/// Mounts a disk of `$1` KiB on `disk`, puts the old file there, and runs the commands on it.
+/// Prints their status, whether the old file is still there as it was, whether a new one verifies,
+/// and the number of files.
 const SCRIPT: &str = r#"
 mount -t tmpfs -o size="$1"k none disk || exit 77
 cp old.neph disk/out.neph 2>/dev/null || { echo full; exit; }
@@ -20,8 +22,9 @@ if cmp -s old.neph disk/out.neph; then kept=old; elif "$2" verify disk/out.neph 
 echo "$built $kept $extracted $mesh $(ls -A disk | wc -l) $(wc -l <message)"
 "#;
 
-/// Mounts a disk of `$1` KiB on `disk` and builds a database there, twice. Prints both statuses, how many of its files are there and
-/// how many of them are whole; then makes room, builds again, and prints whether the database is that in `whole`.
+/// Mounts a disk of `$1` KiB on `disk` and builds a database there, twice. Prints both statuses,
+/// how many of its files are there and how many of them are whole; then makes room, builds again,
+/// and prints whether the database is that in `whole`.
 const DATABASE: &str = r#"
 mount -t tmpfs -o size="$1"k none disk || exit 77
 for run in 1 2; do "$2" build a.ply b.ply c.ply --output-dir disk/db >/dev/null 2>message; built="$built $?"; done

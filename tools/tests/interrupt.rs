@@ -1,7 +1,7 @@
 //! An interrupt ends a build with status 130 and leaves the folder as it was.
 //!
-//! No test guesses how fast the machine is: the program reads its mesh from standard input, so a test
-//! knows what the program has read before it sends the signal.
+//! No test guesses how fast the machine is: the program reads its mesh from standard input, so a
+//! test knows what the program has read before it sends the signal.
 #![cfg(unix)]
 #![allow(clippy::expect_used, reason = "a panic is how a test fails")]
 
@@ -70,7 +70,8 @@ fn an_interrupted_build_leaves_nothing() {
     }
 }
 
-/// A measurement asks nobody between its samples: it does not take over the interrupt and ends at once.
+/// A measurement asks nobody between its samples: it does not take over the interrupt and ends at
+/// once.
 #[test]
 fn a_measurement_without_end_is_interrupted() {
     let place = Workplace::new();

@@ -1,5 +1,5 @@
-//! A build that is killed at any moment leaves the old file or the new one under its name, and what it leaves beside it is gone
-//! after the next build.
+//! A build that is killed at any moment leaves the old file or the new one under its name, and what
+//! it leaves beside it is gone after the next build.
 #![cfg(unix)]
 #![allow(clippy::expect_used, clippy::cast_possible_truncation, reason = "a panic is how a test fails")]
 

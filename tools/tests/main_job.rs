@@ -186,7 +186,8 @@ fn vertices_move_when_asked_and_only_under_the_proof() {
     assert!(place.done("info moved.neph").contains("best placement"));
 }
 
-/// Promise: a file that the program makes states its method and bound, and its errors are proven from it.
+/// Promise: a file that the program makes states its method and bound, and its errors are proven
+/// from it.
 #[test]
 fn the_demonstration_writes_a_file_whose_errors_are_proven() {
     let place = Workplace::new();

@@ -1,4 +1,5 @@
-//! `measure` says what the contract names, agrees with closed forms, and writes what it is asked to.
+//! `measure` says what the contract names, agrees with closed forms, and writes what it is asked
+//! to.
 
 mod support;
 

@@ -1,5 +1,5 @@
-//! Meshes and files go through standard input and output as they go through files, and results stay out of
-//! their way.
+//! Meshes and files go through standard input and output as they go through files, and results stay
+//! out of their way.
 
 #![allow(clippy::expect_used, reason = "a panic is how a test fails")]
 
@@ -12,8 +12,8 @@ use std::thread;
 use serde_json::Value;
 use support::{Workplace, number};
 
-/// Runs the program with bytes on standard input; returns standard output and standard error. It must
-/// succeed.
+/// Runs the program with bytes on standard input; returns standard output and standard error. It
+/// must succeed.
 fn filter(place: &Workplace, line: &str, input: Vec<u8>) -> (Vec<u8>, String) {
     let mut command = place.command(line.split_whitespace());
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());

@@ -1,4 +1,5 @@
-//! `nephrite view` serves the page and the files named, in parts, to this machine, and nothing else to nobody else.
+//! `nephrite view` serves the page and the files named, in parts, to this machine, and nothing else
+//! to nobody else.
 #![cfg(feature = "view")]
 #![allow(clippy::expect_used, reason = "a panic is how a test fails")]
 
@@ -63,7 +64,8 @@ impl Drop for Viewer {
     }
 }
 
-/// A folder with `ball.neph`, and its bytes; nothing where npm was missing when the program was built.
+/// A folder with `ball.neph`, and its bytes; nothing where npm was missing when the program was
+/// built.
 fn place_with_file() -> Option<(Workplace, Vec<u8>)> {
     let place = Workplace::new();
     place.done("generate sphere -o in.ply");

@@ -87,7 +87,8 @@ fn kinds_are_not_mixed_up() {
     place.done("build in.ply in.vtk --output-dir db --method progressive --field-weight 2");
 }
 
-/// Of a volume, `measure` takes the boundary, also beside a surface; the same grid in pieces is one grid.
+/// Of a volume, `measure` takes the boundary, also beside a surface; the same grid in pieces is one
+/// grid.
 #[test]
 fn a_volume_is_measured_by_its_boundary() {
     let place = Workplace::new();

@@ -30,7 +30,8 @@ pub(crate) struct Arguments {
 
 /// Vertices along each side of the cosine surface, as in the JADE paper.
 const SIDE: u32 = 120;
-/// Errors of the table, in percent of the diagonal, each with the name of its mesh if one is written.
+/// Errors of the table, in percent of the diagonal, each with the name of its mesh if one is
+/// written.
 const ROWS: [(f64, Option<&str>); 8] = [
     (0.0, None),
     (0.02, None),

@@ -22,8 +22,8 @@ pub(crate) struct Arguments {
     /// File that `build` wrote, or - for standard input
     file: Source,
 
-    /// Mesh to write, or - for standard output. The extension chooses the format: ply, obj, stl, off or
-    /// glb for surfaces, vtu or vtk for volumes
+    /// Mesh to write, or - for standard output. The extension chooses the format: ply, obj, stl,
+    /// off or glb for surfaces, vtu or vtk for volumes
     #[arg(short, long, value_name = "MESH")]
     output: Target,
 
@@ -51,8 +51,8 @@ struct Selector {
     #[arg(long, value_name = "E")]
     error: Option<Length>,
 
-    /// The finest level with at most this many triangles: a number, or with % in percent of the input's.
-    /// The coarsest level if every level has more
+    /// The finest level with at most this many triangles: a number, or with % in percent of the
+    /// input's. The coarsest level if every level has more
     #[arg(long, value_name = "N")]
     triangles: Option<Count>,
 
@@ -60,8 +60,8 @@ struct Selector {
     #[arg(long, value_name = "N")]
     tetrahedra: Option<Count>,
 
-    /// Of the levels near reduction R after which the error leaps, the nearest; R is from 0, the input, to
-    /// 1, nothing. Without a leap there, the level before the steepest rise
+    /// Of the levels near reduction R after which the error leaps, the nearest; R is from 0, the
+    /// input, to 1, nothing. Without a leap there, the level before the steepest rise
     #[arg(long, value_name = "R", value_parser = reduction)]
     inflection: Option<f64>,
 

@@ -127,7 +127,8 @@ enum Kind {
         #[command(flatten)]
         to: Output,
     },
-    /// A plate with round through-holes, as CAD systems export it; by default 7 holes and 2,624 triangles
+    /// A plate with round through-holes, as CAD systems export it; by default 7 holes and 2,624
+    /// triangles
     Plate {
         #[command(flatten)]
         drilling: DrillingArguments,

@@ -25,9 +25,9 @@ const N_BINS: usize = 128;
 
 /// Measure the two-sided distance between two surfaces, with a proven bracket.
 ///
-/// Of a volume the boundary is measured. Two volumes are also compared by their contents and fields.
-/// Mean and rms count what Metro counts: vertices, samples on edges and samples in triangles, each once.
-/// The bracket is proven: the Hausdorff distance lies between its ends.
+/// Of a volume the boundary is measured. Two volumes are also compared by their contents and
+/// fields. Mean and rms count what Metro counts: vertices, samples on edges and samples in
+/// triangles, each once. The bracket is proven: the Hausdorff distance lies between its ends.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Mesh to compare with, or - for standard input
@@ -44,7 +44,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = MeasureOptions::default().n_samples, value_parser = n_samples)]
     samples: usize,
 
-    /// Width of the proven bracket to reach, as a fraction of the distance or, with %, in percent of it
+    /// Width of the proven bracket to reach, as a fraction of the distance or, with %, in percent
+    /// of it
     #[arg(long, value_name = "T", default_value = "1%", value_parser = tolerance)]
     tolerance: f64,
 
@@ -52,8 +53,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = MeasureOptions::default().max_pieces)]
     max_pieces: usize,
 
-    /// Write MESH with two attributes of every vertex: its distance from REFERENCE, and a colour from dark
-    /// blue for 0 to yellow for the largest distance
+    /// Write MESH with two attributes of every vertex: its distance from REFERENCE, and a colour
+    /// from dark blue for 0 to yellow for the largest distance
     #[arg(long, visible_alias = "color", value_name = "OUT.ply")]
     colour: Option<Target>,
 
@@ -244,8 +245,8 @@ fn fields_text(fields: &[FieldDistance]) -> String {
     format!("Fields, sampled at vertices:\n{}", figures::table(headings, &rows))
 }
 
-/// The mesh with the attributes `distance` and `color`, which replace any of these names. A distance of
-/// `range` has the last colour of the ramp.
+/// The mesh with the attributes `distance` and `color`, which replace any of these names. A
+/// distance of `range` has the last colour of the ramp.
 fn coloured(mut mesh: TriangleMesh, distances: &[f64], range: f64) -> TriangleMesh {
     mesh.attributes.retain(|attribute| attribute.name != "distance" && attribute.name != "color");
     #[expect(clippy::cast_possible_truncation, reason = "the file keeps f32, as it does for positions")]

@@ -37,7 +37,8 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// Where to print the result: not among the bytes of a mesh or file that goes to standard output.
+    /// Where to print the result: not among the bytes of a mesh or file that goes to standard
+    /// output.
     pub(crate) fn report_stream(&self) -> Stream {
         let target = match self {
             Self::Generate(arguments) => Some(arguments.target()),
@@ -50,7 +51,8 @@ impl Command {
         if target == Some(&Target::Stdout) { Stream::Stderr } else { Stream::Stdout }
     }
 
-    /// Runs the command and returns its result. A server prints its result when it starts, in `form`.
+    /// Runs the command and returns its result. A server prints its result when it starts, in
+    /// `form`.
     ///
     /// # Errors
     ///

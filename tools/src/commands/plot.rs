@@ -15,8 +15,8 @@ use crate::{figures, files};
 /// Draw the error against the number of triangles, as an SVG picture with logarithmic axes.
 ///
 /// Errors are in percent of the bounding box diagonal of each mesh, so that several files fit one
-/// picture. A line has steps: with a budget of N triangles the error is that of the finest level that
-/// has at most N.
+/// picture. A line has steps: with a budget of N triangles the error is that of the finest level
+/// that has at most N.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Files that `build` wrote; - is standard input

@@ -20,8 +20,8 @@ pub(crate) struct Arguments {
     /// File that `build` wrote, or - for standard input
     file: Source,
 
-    /// Prove from the file alone that the distance of every level from level 0, in both directions, is at
-    /// most its stated error
+    /// Prove from the file alone that the distance of every level from level 0, in both directions,
+    /// is at most its stated error
     #[arg(long)]
     bound: bool,
 
@@ -74,7 +74,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
     })
 }
 
-/// Proves the errors of all certified levels, or of `n_wanted` evenly spread ones. Returns their number.
+/// Proves the errors of all certified levels, or of `n_wanted` evenly spread ones. Returns their
+/// number.
 fn prove_errors(lod: &Lod, n_wanted: Option<NonZeroU32>) -> Result<u32, ReproveError> {
     let table = ErrorTable::new(lod)?;
     let last = table.last_certified();

@@ -16,8 +16,8 @@ use crate::{figures, files, interrupt};
 
 /// Show files in the browser, with a slider over the levels of detail.
 ///
-/// Serves one page and the files to this machine only, opens the browser, and runs until Ctrl-C. The page
-/// loads nothing from elsewhere.
+/// Serves one page and the files to this machine only, opens the browser, and runs until Ctrl-C.
+/// The page loads nothing from elsewhere.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Files that `build` wrote; several files are shown as a gallery

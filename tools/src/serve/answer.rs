@@ -24,8 +24,8 @@ pub(super) type Answer = Response<BoxBody<Bytes, io::Error>>;
 /// Bytes of a file that are in memory at a time for one answer.
 const READ_BYTES: usize = 1 << 16;
 
-/// Headers of every answer. They forbid the page to load anything from elsewhere, and isolate it from other
-/// pages, which gives it a clock fine enough to time queries.
+/// Headers of every answer. They forbid the page to load anything from elsewhere, and isolate it
+/// from other pages, which gives it a clock fine enough to time queries.
 const ALWAYS: [(HeaderName, &str); 7] = [
     (header::CACHE_CONTROL, "no-store"),
     (
@@ -72,8 +72,8 @@ pub(super) async fn answer<B>(site: &Site, is_private: bool, request: &Request<B
     answer
 }
 
-/// The file, or the part of it that is asked for. It is opened for this answer: a file that was replaced
-/// is another file, with another tag.
+/// The file, or the part of it that is asked for. It is opened for this answer: a file that was
+/// replaced is another file, with another tag.
 async fn file(path: &Path, headers: &HeaderMap, content_type: &str) -> io::Result<Answer> {
     let mut file = File::open(path).await?;
     let metadata = file.metadata().await?;

@@ -16,7 +16,8 @@ use crate::page::Asset;
 const SERVED: &[u8] = b"0123456789";
 const SECRET: &[u8] = b"nobody may read this";
 
-/// Longest time of a connection, on the clock of the runtime, which jumps ahead when all tasks wait.
+/// Longest time of a connection, on the clock of the runtime, which jumps ahead when all tasks
+/// wait.
 const LONGEST: Duration = Duration::from_secs(60);
 
 /// A site of a page and a file. The folder goes with the process.

@@ -1,9 +1,10 @@
-//! The server of `nephrite view`: a few fixed addresses, each a part of the page or one of the files.
+//! The server of `nephrite view`: a few fixed addresses, each a part of the page or one of the
+//! files.
 //!
-//! No address becomes a path: [`Site`] is a table, and an address that it does not list does not exist.
-//! HTTP is left to the crate hyper, whose parser is exposed to hostile bytes every day; the nearest smaller
-//! crate, `tiny_http`, has had no release since 2022. hyper does not handle ranges, so [`range`] reads the
-//! one header that is needed (RFC 9110, section 14).
+//! No address becomes a path: [`Site`] is a table, and an address that it does not list does not
+//! exist. HTTP is left to the crate hyper, whose parser is exposed to hostile bytes every day; the
+//! nearest smaller crate, `tiny_http`, has had no release since 2022. hyper does not handle ranges,
+//! so [`range`] reads the one header that is needed (RFC 9110, section 14).
 
 mod answer;
 #[cfg(test)]
@@ -100,8 +101,8 @@ async fn serve(listener: TcpListener, site: Arc<Site>, is_private: bool) -> io::
     Ok(())
 }
 
-/// The connection with one client: a future that ends when the client has gone, or did not send the head
-/// of a request in time.
+/// The connection with one client: a future that ends when the client has gone, or did not send the
+/// head of a request in time.
 fn connection<S: AsyncRead + AsyncWrite + Unpin>(
     stream: S,
     site: &Arc<Site>,

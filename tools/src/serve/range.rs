@@ -3,8 +3,8 @@
 /// Which part of a body a request asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
-    /// All of it: no range, several ranges, or one that cannot be read. A server may answer these with the
-    /// whole.
+    /// All of it: no range, several ranges, or one that cannot be read. A server may answer these
+    /// with the whole.
     Whole,
     /// Bytes `first..=last`, both inside the body.
     Bytes {

@@ -36,8 +36,8 @@ pub(crate) struct Site {
 }
 
 impl Site {
-    /// A site of the parts of the page and of `files`, named after their paths. `is_live` tells the page
-    /// that the files may change while it shows them.
+    /// A site of the parts of the page and of `files`, named after their paths. `is_live` tells the
+    /// page that the files may change while it shows them.
     ///
     /// # Errors
     ///
@@ -79,8 +79,8 @@ impl Site {
     }
 }
 
-/// The name to show for a file, and a free address for it. Addresses consist of characters without special
-/// meaning in URLs and file systems.
+/// The name to show for a file, and a free address for it. Addresses consist of characters without
+/// special meaning in URLs and file systems.
 fn name(path: &Path, taken: &BTreeMap<String, Entry>) -> (String, String) {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let plain: String = name

@@ -18,7 +18,8 @@ use crate::streams::Source;
 use crate::{figures, files, stopwatch};
 use memory::{CacheFlush, forget_file};
 
-/// Measure the rate at which this machine extracts levels of a file, beside plain copies of the same bytes.
+/// Measure the rate at which this machine extracts levels of a file, beside plain copies of the
+/// same bytes.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// File that `build` wrote, or - for standard input

@@ -20,8 +20,8 @@ use crate::words::{BoundName, MethodName, PlacementName};
 /// Build a file that holds every level of detail of a mesh.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Arguments {
-    /// Mesh to read, or - for standard input. Surfaces: PLY, OBJ, STL, OFF, glTF or GLB. Volumes: VTU, PVTU,
-    /// PVD, VTK, Gmsh, MEDIT, MFEM, TetGen or PLOT3D
+    /// Mesh to read, or - for standard input. Surfaces: PLY, OBJ, STL, OFF, glTF or GLB. Volumes:
+    /// VTU, PVTU, PVD, VTK, Gmsh, MEDIT, MFEM, TetGen or PLOT3D
     pub(super) mesh: Source,
 
     /// With --output-dir: more meshes, or folders of them
@@ -31,8 +31,9 @@ pub(crate) struct Arguments {
     #[arg(short, long, value_name = "OUT.neph", required_unless_present = "output_dir")]
     pub(super) output: Option<Target>,
 
-    /// Build a database in this folder: a file for each mesh, and manifest.jsonl with a line for each. A
-    /// folder stands for all meshes in it and in its folders. Files that are up to date are left alone
+    /// Build a database in this folder: a file for each mesh, and manifest.jsonl with a line for
+    /// each. A folder stands for all meshes in it and in its folders. Files that are up to date are
+    /// left alone
     #[arg(long, value_name = "DB", conflicts_with = "output")]
     pub(super) output_dir: Option<PathBuf>,
 
@@ -40,7 +41,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "EXT", value_parser = meshes::parse_format)]
     pub(super) input_format: Option<FileFormat>,
 
-    /// Stop at this error: a length, or with % in percent of the diagonal. Without it, go as far as possible
+    /// Stop at this error: a length, or with % in percent of the diagonal. Without it, go as far as
+    /// possible
     #[arg(long, value_name = "E", value_parser = positive_length)]
     pub(super) max_error: Option<Length>,
 
@@ -52,22 +54,23 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum)]
     pub(super) bound: Option<BoundName>,
 
-    /// Angle between the normals at an edge, in degrees, from which the edge is a feature; 60 by default,
-    /// 40 for volumes
+    /// Angle between the normals at an edge, in degrees, from which the edge is a feature; 60 by
+    /// default, 40 for volumes
     #[arg(long, value_name = "DEG", value_parser = angle)]
     pub(super) feature_angle: Option<f64>,
 
-    /// Keep at most this many levels; without it, each has about 63/64 of the triangles of the one before
+    /// Keep at most this many levels; without it, each has about 63/64 of the triangles of the one
+    /// before
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) levels: Option<u32>,
 
-    /// Store levels in windows of N, rounded up to a power of two, such as 16. Levels drawn as runs then
-    /// make better use of the vertex cache; the file is larger
+    /// Store levels in windows of N, rounded up to a power of two, such as 16. Levels drawn as runs
+    /// then make better use of the vertex cache; the file is larger
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) window_levels: Option<u32>,
 
-    /// Store each simplex once, with narrow indices. The file has a third to two thirds of the length, and
-    /// readers must lay it out in memory instead of mapping it
+    /// Store each simplex once, with narrow indices. The file has a third to two thirds of the
+    /// length, and readers must lay it out in memory instead of mapping it
     #[arg(long)]
     pub(super) compact: bool,
 
@@ -92,12 +95,14 @@ pub(super) struct JadeArguments {
     #[arg(long, value_enum)]
     pub(super) placement: Option<PlacementName>,
 
-    /// The first limit on the local error is the largest one divided by K; 256 by default, 240.5 with
+    /// The first limit on the local error is the largest one divided by K; 256 by default, 240.5
+    /// with
     /// --placement best
     #[arg(long = "jade-k", value_name = "K", value_parser = jade_k, hide_short_help = true)]
     pub(super) k: Option<f64>,
 
-    /// Factor from the limit of one iteration to the next; 1.3 by default, 1.259 with --placement best
+    /// Factor from the limit of one iteration to the next; 1.3 by default, 1.259 with --placement
+    /// best
     #[arg(long = "jade-c1", value_name = "C1", value_parser = jade_c1, hide_short_help = true)]
     pub(super) c1: Option<f64>,
 
@@ -105,8 +110,8 @@ pub(super) struct JadeArguments {
     #[arg(long = "jade-c2", value_name = "C2", value_parser = from_one_to_sixteen, hide_short_help = true)]
     pub(super) c2: Option<f64>,
 
-    /// With --bound joint, removed or accumulated: fraction by which flipping an edge may make the aspect
-    /// ratio worse; 0.5 by default
+    /// With --bound joint, removed or accumulated: fraction by which flipping an edge may make the
+    /// aspect ratio worse; 0.5 by default
     #[arg(long = "jade-aspect-loss", value_name = "FRACTION", value_parser = fraction, hide_short_help = true)]
     pub(super) aspect_loss: Option<f64>,
 }
@@ -119,8 +124,8 @@ pub(super) struct ProgressiveArguments {
     #[arg(long, value_name = "R", value_parser = fraction)]
     pub(super) reduction: Option<f64>,
 
-    /// First split the surface along feature edges, at corners and at non-manifold vertices: better for
-    /// large flat faces with thin sides between them
+    /// First split the surface along feature edges, at corners and at non-manifold vertices: better
+    /// for large flat faces with thin sides between them
     #[arg(long)]
     pub(super) pre_split: bool,
 
@@ -133,13 +138,13 @@ pub(super) struct ProgressiveArguments {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Options for volumes")]
 pub(super) struct FusionArguments {
-    /// Weight of the fields beside the shape: the range of a field counts as W bounding box diagonals;
-    /// 4 by default
+    /// Weight of the fields beside the shape: the range of a field counts as W bounding box
+    /// diagonals; 4 by default
     #[arg(long, value_name = "W", value_parser = not_negative)]
     pub(super) field_weight: Option<f64>,
 
-    /// Cheapest fraction of the tetrahedra, which are fused whole before edges are; 0.1 by default, 1 in the
-    /// paper
+    /// Cheapest fraction of the tetrahedra, which are fused whole before edges are; 0.1 by default,
+    /// 1 in the paper
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     pub(super) tetrahedron_share: Option<f64>,
 

@@ -1,10 +1,10 @@
 //! `nephrite build MESHES... --output-dir DB`: a database of parts, each with all of its levels.
 //!
-//! Parts are built side by side, one thread each. `manifest.jsonl` gets a line as soon as a part is done, so
-//! that a run that was stopped goes on where it was. A part is skipped while its bytes, the options and the
-//! file made of it are what its line says. A part that cannot be read or built, or whose build panics, is
-//! listed with the reason, and the others go on. Of a part that is done only the place of its line stays in
-//! memory.
+//! Parts are built side by side, one thread each. `manifest.jsonl` gets a line as soon as a part is
+//! done, so that a run that was stopped goes on where it was. A part is skipped while its bytes,
+//! the options and the file made of it are what its line says. A part that cannot be read or built,
+//! or whose build panics, is listed with the reason, and the others go on. Of a part that is done
+//! only the place of its line stays in memory.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -105,7 +105,8 @@ fn report(folder: &Path, lines: &[Line], listed: &Parts, start: Instant) -> Repo
     }
 }
 
-/// Builds a part unless that is done, and writes its line. `None` if a stop was asked for meanwhile.
+/// Builds a part unless that is done, and writes its line. `None` if a stop was asked for
+/// meanwhile.
 fn build_part(
     arguments: &Arguments,
     part: &Path,

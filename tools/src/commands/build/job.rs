@@ -49,8 +49,8 @@ impl Job<'_> {
         }
     }
 
-    /// Writes the file. Standard output cannot be written twice in one place, as the head of the file is:
-    /// for it the file is made in memory.
+    /// Writes the file. Standard output cannot be written twice in one place, as the head of the
+    /// file is: for it the file is made in memory.
     pub(super) fn write(&self, built: &Built<'_>) -> Result<StoreReport, Failure> {
         let failed = |error: WriteError| Failure::file(self.target.to_string(), error);
         let options = self.arguments.stored();

@@ -1,5 +1,5 @@
-//! The manifest of a database: a file of JSON lines, one for each part. It grows while parts are built and
-//! is put in order at the end.
+//! The manifest of a database: a file of JSON lines, one for each part. It grows while parts are
+//! built and is put in order at the end.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
@@ -25,7 +25,8 @@ pub(super) struct Facts {
     pub(super) options: String,
 }
 
-/// A line of the manifest: its place and the few values that are needed. Its long text stays in the file.
+/// A line of the manifest: its place and the few values that are needed. Its long text stays in the
+/// file.
 #[derive(Clone, Debug)]
 pub(super) struct Line {
     /// `None` for a part that failed.
@@ -66,14 +67,14 @@ pub(super) struct Manifest {
 }
 
 impl Manifest {
-    /// Opens the manifest of a folder. Returns it with the last line of each part from earlier runs. Lines
-    /// behind one that is cut off are left out. The file is locked where locks are known to work, as two
-    /// builds of one database would mix their lines.
+    /// Opens the manifest of a folder. Returns it with the last line of each part from earlier
+    /// runs. Lines behind one that is cut off are left out. The file is locked where locks are
+    /// known to work, as two builds of one database would mix their lines.
     ///
     /// # Errors
     ///
-    /// The file cannot be read or written, another process writes it, or it does not begin with a line of a
-    /// manifest.
+    /// The file cannot be read or written, another process writes it, or it does not begin with a
+    /// line of a manifest.
     pub(super) fn open(folder: &Path) -> Result<(Self, BTreeMap<PathBuf, Line>), Failure> {
         let path = folder.join(MANIFEST);
         let opened = open(&path).map_err(|source| Failure::file(&path, source))?;

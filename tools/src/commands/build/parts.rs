@@ -16,8 +16,8 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// A folder stands for all meshes and volumes in it and in its folders. The database itself, `db`, is
-    /// none of them.
+    /// A folder stands for all meshes and volumes in it and in its folders. The database itself,
+    /// `db`, is none of them.
     pub(super) fn list<'a>(named: impl Iterator<Item = &'a PathBuf>, db: &Path) -> Result<Self, Failure> {
         // Not there yet, it holds nothing that could be taken for a part.
         let db = fs::canonicalize(db).unwrap_or_default();
@@ -57,8 +57,8 @@ impl Parts {
     }
 }
 
-/// Adds the parts of a folder and of all folders in it. Links to folders are not followed: they may lead
-/// back.
+/// Adds the parts of a folder and of all folders in it. Links to folders are not followed: they may
+/// lead back.
 fn list_folder(
     named: &Path,
     db: &Path,
@@ -87,8 +87,8 @@ fn list_folder(
     Ok(())
 }
 
-/// A file name for each part: its own, where several have the same told apart by their paths, and by
-/// numbers where a name looks like that.
+/// A file name for each part: its own, where several have the same told apart by their paths, and
+/// by numbers where a name looks like that.
 fn names(parts: &[PathBuf]) -> Vec<String> {
     let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
@@ -122,8 +122,8 @@ fn is_companion(path: &Path) -> bool {
     }
 }
 
-/// True for a file in a folder that is a part by its name. Of TetGen's two files one stands for both; the
-/// extensions of PLOT3D say too little.
+/// True for a file in a folder that is a part by its name. Of TetGen's two files one stands for
+/// both; the extensions of PLOT3D say too little.
 fn is_part(path: &Path) -> bool {
     let is_elements = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ele"));
     match meshes::format_of_name(path) {

@@ -1,6 +1,7 @@
 //! Which options of `build` have a meaning for which input and decimator.
 //!
-//! Nothing that is typed is ignored: an option that means nothing for any of the inputs is wrong usage.
+//! Nothing that is typed is ignored: an option that means nothing for any of the inputs is wrong
+//! usage.
 
 use nephrite_formats::{FileFormat, VolumeFormat};
 
