@@ -1,4 +1,5 @@
-//! Well-known kinds of files that are not read, told by how they begin, so that a message can name them.
+//! Well-known kinds of files that are not read, told by how they begin, so that a message can name
+//! them.
 
 use crate::MeshError;
 use crate::text::{Scanner, Style};

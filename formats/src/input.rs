@@ -48,8 +48,8 @@ pub(crate) fn path_below(text: &str) -> Result<PathBuf, &'static str> {
     if path.as_os_str().is_empty() { Err("is empty") } else { Ok(path) }
 }
 
-/// The bytes of a regular file in a folder or below it. Links are followed as far as they stay there:
-/// an archive can hold a link to anywhere.
+/// The bytes of a regular file in a folder or below it. Links are followed as far as they stay
+/// there: an archive can hold a link to anywhere.
 ///
 /// # Errors
 ///

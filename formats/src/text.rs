@@ -1,7 +1,7 @@
 //! Words, lines and numbers of text formats, read straight from the bytes in one pass.
 //!
-//! A line ends at LF, CR LF or a lone CR. Nothing is copied and nothing is looked at twice, so one line of a gigabyte costs
-//! what a gigabyte of short lines costs.
+//! A line ends at LF, CR LF or a lone CR. Nothing is copied and nothing is looked at twice, so one
+//! line of a gigabyte costs what a gigabyte of short lines costs.
 
 use std::borrow::Cow;
 use std::str::FromStr;
@@ -120,7 +120,8 @@ impl<'a> Scanner<'a> {
     /// Goes to the start of the next line; false where there is none.
     pub(crate) fn next_line(&mut self) -> bool {
         loop {
-            // A comment has been passed up to its line's end: a backslash before that end belongs to the comment.
+            // A comment has been passed up to its line's end: a backslash before that end belongs
+            // to the comment.
             let from = self.at;
             self.at = self.line_end();
             if self.at == self.bytes.len() {
@@ -135,7 +136,8 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The next bytes as they are, in a file that has both words and numbers in binary; `None` where fewer are left.
+    /// The next bytes as they are, in a file that has both words and numbers in binary; `None`
+    /// where fewer are left.
     pub(crate) fn take_bytes<const N: usize>(&mut self) -> Option<&'a [u8; N]> {
         let bytes = self.bytes[self.at..].first_chunk()?;
         self.at += N;

@@ -1,4 +1,5 @@
-//! Volumes of other programs' users come out right: what their files hold is in the mesh or is named.
+//! Volumes of other programs' users come out right: what their files hold is in the mesh or is
+//! named.
 //!
 //! The files lie beside the repository; what each promises is tested on generated files in
 //! `volumes_of_every_format.rs` and `nothing_of_a_volume_is_lost_in_silence.rs` as well.

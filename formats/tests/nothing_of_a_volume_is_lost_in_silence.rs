@@ -256,7 +256,8 @@ fn of_pieces_and_times() {
     );
 }
 
-/// Names of arrays and groups in a file, found by looking for them in its text and not by reading it.
+/// Names of arrays and groups in a file, found by looking for them in its text and not by reading
+/// it.
 fn names_in(text: &str) -> Vec<String> {
     if text.contains("<VTKFile") {
         let data = ["PointData", "CellData", "FieldData"];

@@ -1,4 +1,5 @@
-//! Files that are in order and hold volumes that are not: topology and geometry of every unpleasant kind, as legacy VTK.
+//! Files that are in order and hold volumes that are not: topology and geometry of every unpleasant
+//! kind, as legacy VTK.
 
 use super::Case;
 use std::fmt::Write;

@@ -1,4 +1,5 @@
-//! TetGen: two files that belong together, each of them bad in turn. Both names of a pair have one outcome.
+//! TetGen: two files that belong together, each of them bad in turn. Both names of a pair have one
+//! outcome.
 
 use super::Case;
 

@@ -120,8 +120,8 @@ impl Cells {
     }
 }
 
-/// The faces of a prism. Programs differ in which side they see its triangles from, also those that write
-/// one format, so its shape decides.
+/// The faces of a prism. Programs differ in which side they see its triangles from, also those that
+/// write one format, so its shape decides.
 fn prism_faces(corners: &[u32], positions: &[[f32; 3]]) -> &'static [&'static [usize]] {
     let point = |corner: usize| positions[corners[corner] as usize].map(f64::from);
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

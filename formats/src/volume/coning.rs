@@ -2,13 +2,13 @@
 //! neighbours.
 //!
 //! Cutting each hexahedron by a fixed pattern leaves neighbours with crossing diagonals on the face
-//! they share. Here every solid is the cone from its least corner over the faces that do not touch it,
-//! and every quadrilateral is cut through its own least corner. Both neighbours of a face know its
-//! corners and so cut it alike. The order of the corners comes from their places, so that this holds for
-//! neighbours with vertices of their own as well.
+//! they share. Here every solid is the cone from its least corner over the faces that do not touch
+//! it, and every quadrilateral is cut through its own least corner. Both neighbours of a face know
+//! its corners and so cut it alike. The order of the corners comes from their places, so that this
+//! holds for neighbours with vertices of their own as well.
 //!
-//! Reference: J. Dompierre, P. Labbe, M.-G. Vallet, R. Camarero: "How to subdivide pyramids, prisms and
-//! hexahedra into tetrahedra" (International Meshing Roundtable, 1999).
+//! Reference: J. Dompierre, P. Labbe, M.-G. Vallet, R. Camarero: "How to subdivide pyramids, prisms
+//! and hexahedra into tetrahedra" (International Meshing Roundtable, 1999).
 
 /// Faces of a hexahedron with the vertex order of VTK, seen from outside counter-clockwise.
 pub(super) const HEXAHEDRON: [&[usize]; 6] =
@@ -24,7 +24,8 @@ pub(super) const UPRIGHT_PRISM: [&[usize]; 5] =
 /// Faces of a pyramid over the quadrilateral 0 1 2 3 with the apex 4.
 pub(super) const PYRAMID: [&[usize]; 5] = [&[0, 3, 2, 1], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]];
 
-/// Cuts a solid with the given faces and `n_corners` corners, and hands out its tetrahedra by corner.
+/// Cuts a solid with the given faces and `n_corners` corners, and hands out its tetrahedra by
+/// corner.
 ///
 /// `rank` orders the corners, equal for corners at one place. The least one is the apex.
 pub(super) fn cone(

@@ -1,4 +1,5 @@
-//! Which volume format a file is in, and the way to its reader or writer. Contents are believed before extensions.
+//! Finds the format of a volume file and calls its reader or writer. Contents count more than
+//! extensions.
 
 use std::fmt;
 use std::io::Write;
@@ -17,8 +18,9 @@ use crate::{FileReport, Kind, MeshError, TetrahedronMesh, foreign};
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum VolumeFormat {
-    /// VTK's XML format, arrays as text, base64 or raw, plain or compressed by zlib, LZ4 or LZMA; also
-    /// `.pvtu`, which names the pieces of a grid, and `.pvd`, which names a grid at several times.
+    /// VTK's XML format, arrays as text, base64 or raw, plain or compressed by zlib, LZ4 or LZMA;
+    /// also `.pvtu`, which names the pieces of a grid, and `.pvd`, which names a grid at several
+    /// times.
     Vtu,
     /// Legacy VTK, text or binary.
     Vtk,
@@ -59,7 +61,7 @@ impl VolumeFormat {
         Self::ALL.into_iter().find(|format| format.extensions().iter().any(is_named))
     }
 
-    /// The format of a file's contents, with the format that its extension names where the contents leave it open.
+    /// The format of a file's contents; `extension` if the contents do not tell it.
     pub fn detect(bytes: &[u8], extension: Option<Self>) -> Option<Self> {
         if bytes.starts_with(b"# vtk DataFile") {
             return Some(Self::Vtk);
@@ -111,8 +113,9 @@ impl fmt::Display for VolumeFormat {
 
 /// Reads a volume file of any known format.
 ///
-/// Costs one read of the file and a few passes over its bytes; memory stays within a constant times its size. Of TetGen's two
-/// files either is given, and the other one of the same name is read as well.
+/// Costs one read of the file and a few passes over its bytes; memory stays within a constant times
+/// its size. Of TetGen's two files `path` is either; the other one of the same name is read as
+/// well. Files that a `.pvtu` or `.pvd` names are read if they are in its folder or below.
 ///
 /// # Errors
 ///
@@ -181,13 +184,13 @@ pub fn read_plot3d(
     plot3d::read(&bytes, &solutions).map_err(|error| error.in_file(grid.as_ref()))
 }
 
-/// Writes a volume in the format that the path's extension names. The file appears whole or not at all.
-/// The report tells what the format has no place for.
+/// Writes a volume in the format that the path's extension names. The file appears whole or not at
+/// all. The report tells what the format has no place for.
 ///
 /// # Errors
 ///
-/// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`], [`MeshError::InconsistentMesh`] or
-/// [`MeshError::Io`].
+/// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`],
+/// [`MeshError::InconsistentMesh`] or [`MeshError::Io`].
 pub fn write_volume(path: impl AsRef<Path>, mesh: &TetrahedronMesh) -> Result<FileReport, MeshError> {
     let path = path.as_ref();
     let write = || {

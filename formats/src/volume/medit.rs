@@ -1,7 +1,8 @@
 //! MEDIT files (`.mesh`), text.
 //!
 //! A file is a sequence of words: where lines end means nothing. A keyword begins with a letter and
-//! everything up to the next keyword belongs to it, so that a section of an unknown kind can be left out.
+//! everything up to the next keyword belongs to it, so that a section of an unknown kind can be
+//! left out.
 //!
 //! Reference: P. Frey: "MEDIT: an interactive mesh visualization software" (INRIA RT-0253, 2001),
 //! appendix; sections of a higher order: L. Maréchal: "The LibMeshb library" (INRIA, 2018).
@@ -15,8 +16,8 @@ use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style, parse_number};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
-/// Reads a MEDIT file. References of vertices and elements are left out and reported; surface elements
-/// are counted.
+/// Reads a MEDIT file. References of vertices and elements are left out and reported; surface
+/// elements are counted.
 ///
 /// # Errors
 ///

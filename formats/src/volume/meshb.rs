@@ -1,7 +1,8 @@
 //! Binary MEDIT files (`.meshb`).
 //!
-//! A whole number that is 1 in the file's byte order, the version, then keywords, each with the offset of the next one. Versions
-//! differ in their numbers: coordinates are `f32` in version 1, offsets have 64 bits from version 3 on, whole numbers in version 4.
+//! A file begins with the integer 1 in its byte order and the version. Keywords follow, each with
+//! the offset of the next one. Coordinates are `f32` in version 1 and `f64` from version 2 on;
+//! offsets have 64 bits from version 3 on, integers in version 4.
 //!
 //! Reference: L. Maréchal: "The LibMeshb library" (INRIA, 2018), "Binary file format".
 
@@ -26,7 +27,8 @@ pub(super) fn is_meshb(bytes: &[u8]) -> bool {
     read.iter().any(|read| read(*one) == ONE && (1..=4).contains(&read(*version)))
 }
 
-/// Reads a binary MEDIT file. References of vertices and elements are left out; surface elements are counted.
+/// Reads a binary MEDIT file. References of vertices and elements are left out; surface elements
+/// are counted.
 ///
 /// # Errors
 ///
@@ -38,7 +40,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
     let mut report = FileReport::new(VolumeFormat::Medit);
     let mut points = Numbers { number: reader.real(), bytes: Vec::new() };
     let mut elements: Vec<List> = Vec::new();
-    // Offsets only ever lead forward, so that the file is passed over once.
+    // An offset that leads backwards is refused, so the file is passed once.
     loop {
         let keyword = reader.unsigned(4)?;
         if keyword == END {
@@ -58,7 +60,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
                     let size_bytes = (n_nodes + 1) * reader.integer_bytes();
                     let n = reader.count(size_bytes)?;
                     elements.push(List { kind, n_nodes, n, at: reader.at });
-                    // No element is in two lists: few bytes would make many.
+                    // Lists must not overlap: a small file could declare many over the same bytes.
                     reader.at += n * size_bytes;
                 }
                 None => drop(report.named(Kind::Section, &name_of(keyword))),
@@ -161,7 +163,7 @@ impl Reader<'_> {
         if self.version == 4 { 8 } else { 4 }
     }
 
-    /// The next bytes, at most eight of them, as a whole number without a sign.
+    /// The next `n_bytes` bytes, at most 8, as an unsigned integer.
     fn unsigned(&mut self, n_bytes: usize) -> Result<usize, MeshError> {
         let found = self.bytes.len().saturating_sub(self.at);
         let bytes = self.bytes.get(self.at..self.at + n_bytes).ok_or(MeshError::Truncated {
@@ -199,7 +201,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A count of things of so many bytes each, which the file has.
+    /// A count of items of `size_bytes` each. The rest of the file holds that many bytes.
     fn count(&mut self, size_bytes: usize) -> Result<usize, MeshError> {
         let count = self.integer()?;
         let limit = (self.bytes.len() - self.at) / size_bytes;
@@ -210,7 +212,7 @@ impl Reader<'_> {
         Ok(count)
     }
 
-    /// Coordinates of `n` vertices, whose bytes the file has.
+    /// Reads `n` vertices, whose bytes were checked to be there.
     fn vertices(&mut self, n: usize, points: &mut Numbers, report: &mut FileReport) -> Result<(), MeshError> {
         let size_bytes = 3 * points.number.size_bytes();
         let mut references = BTreeSet::new();

@@ -1,7 +1,7 @@
 //! MFEM meshes (`MFEM mesh v1.0` to `v1.3`), text.
 //!
-//! Elements come before vertices. In a curved mesh the vertices have no coordinates of their own: they are
-//! the first degrees of freedom of a field of nodes, if the field is continuous.
+//! Elements come before vertices. In a curved mesh the vertices have no coordinates of their own:
+//! they are the first degrees of freedom of a field of nodes, if the field is continuous.
 //!
 //! Reference: MFEM, "Mesh formats" (mfem.org).
 
@@ -17,7 +17,8 @@ use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 /// How a file begins.
 pub(super) const MAGIC: &[u8] = b"MFEM mesh v1.";
 
-/// Reads an MFEM mesh. Attributes of elements are left out and reported; boundary elements are counted.
+/// Reads an MFEM mesh. Attributes of elements are left out and reported; boundary elements are
+/// counted.
 ///
 /// # Errors
 ///

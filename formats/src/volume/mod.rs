@@ -1,4 +1,4 @@
-//! Volume formats: files of cells, of which the tetrahedra are kept and other solids are cut into tetrahedra.
+//! Volume formats. Tetrahedra are kept; hexahedra, prisms and pyramids are cut into tetrahedra.
 
 mod cells;
 mod coning;

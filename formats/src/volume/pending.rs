@@ -9,7 +9,7 @@ use crate::report::ItemId;
 use crate::{Attribute, Change, FileReport, Kind, MeshError, TetrahedronMesh};
 
 impl Points {
-    /// Points from numbers, three each; what is left over is left out.
+    /// Points of three numbers each. An incomplete last point is left out.
     pub(super) fn new(numbers: &Numbers, is_text: bool) -> Self {
         if let Some(points) = points_f32(numbers) {
             return Self::F32(points);
@@ -50,8 +50,9 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    /// Adds a field for `n_points` vertices, by rule: one of the wrong length is left out, a second one of a name gets a
-    /// number behind it, 64-bit integers are narrowed. All of it is reported.
+    /// Adds a field for `n_points` vertices. A field of another length is left out. A second field
+    /// of one name gets a number behind its name. 64-bit integers are narrowed. The report tells
+    /// each.
     pub(super) fn push(
         &mut self,
         name: &str,
@@ -83,13 +84,14 @@ impl Fields {
     }
 }
 
-/// Why a field of another length than the points is left out.
+/// Why a field with another number of values than there are points is left out.
 pub(super) fn wrong_length(found: u64, expected: u64) -> String {
     format!("it has {found} values for {expected} vertices")
 }
 
-/// Puts the parts of a volume together. Leaves out and reports fields for another number of vertices
-/// (the file gives points after them, or twice), and points without a usable position that no cell uses.
+/// Puts the parts of a volume together. Leaves out, and reports, fields for another number of
+/// vertices (points stand behind them in the file, or twice) and unused points without a usable
+/// position.
 ///
 /// # Errors
 ///
@@ -132,8 +134,8 @@ pub(super) fn finish(
     Ok((mesh, report))
 }
 
-/// For each point whether it has a usable position or a cell uses it; `None` if all have and nothing
-/// is to be left out.
+/// For each point whether it has a usable position or a cell uses it; `None` if all have and
+/// nothing is to be left out.
 fn usable_or_used(points: &Points, cells: &Cells) -> Option<Vec<bool>> {
     let mut is_kept = points.usable();
     if is_kept.iter().all(|&is_usable| is_usable) {

@@ -49,7 +49,7 @@ impl Numbers {
         self.bytes.chunks_exact(self.number.size_bytes()).map(|bytes| number_at(self.number, bytes))
     }
 
-    /// The numbers as whole ones, `None` for what is none.
+    /// The numbers as integers; `None` for a number that is not an integer.
     pub(super) fn to_integers(&self) -> impl Iterator<Item = Option<i64>> + '_ {
         self.bytes.chunks_exact(self.number.size_bytes()).map(|bytes| match self.number {
             NumberType::I64 => Some(i64::from_le_bytes(wide(bytes))),
@@ -58,7 +58,8 @@ impl Numbers {
         })
     }
 
-    /// As attribute values: 64-bit integers become `i32` where all fit and `f64` otherwise, which the second value tells.
+    /// Attribute values: type, bytes, and whether the type changed. 64-bit integers become `i32` if
+    /// all of them fit and `f64` otherwise.
     pub(super) fn into_kept(self) -> (ScalarType, Vec<u8>, bool) {
         if let NumberType::Kept(scalar) = self.number {
             return (scalar, self.bytes, false);
@@ -72,7 +73,7 @@ impl Numbers {
     }
 }
 
-/// Appends a number read from text in the given type; `None` where the type cannot hold it.
+/// Appends a number read from text in the given type; `None` if the type cannot hold it.
 pub(super) fn push_text(bytes: &mut Vec<u8>, number: NumberType, word: &[u8]) -> Option<()> {
     let text = std::str::from_utf8(word).ok()?;
     fn integer<T: TryFrom<i128>>(text: &str) -> Option<T> {
@@ -96,13 +97,13 @@ pub(super) fn push_text(bytes: &mut Vec<u8>, number: NumberType, word: &[u8]) ->
     Some(())
 }
 
-/// A number that is whole and exact.
+/// The integer that a number is, if it is exact.
 #[expect(clippy::cast_possible_truncation, reason = "values beyond 2^53 are refused before the cast")]
 fn whole(value: f64) -> Option<i64> {
     (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
 }
 
-/// Up to eight bytes as eight.
+/// Up to 8 bytes, filled up with zeros to 8.
 fn wide(bytes: &[u8]) -> [u8; 8] {
     let mut wide = [0; 8];
     wide[..bytes.len()].copy_from_slice(bytes);
@@ -118,7 +119,7 @@ fn number_at(number: NumberType, bytes: &[u8]) -> f64 {
     }
 }
 
-/// Points of three `f32` each, where that is what the numbers are.
+/// Points of three `f32` each; `None` if the numbers are of another type.
 pub(super) fn points_f32(numbers: &Numbers) -> Option<Vec<[f32; 3]>> {
     (numbers.number == NumberType::F32).then(|| {
         let values: Vec<f32> = numbers.to_f64().map(nearest_f32).collect();

@@ -1,7 +1,7 @@
 //! TetGen files: vertices in `.node`, tetrahedra in `.ele`, which belong together by name.
 //!
-//! Each item has a line. A header may leave out its last numbers: `125` and `125 3` are both 125 vertices
-//! without attributes and markers.
+//! Each item has a line. A header may leave out its last numbers: `125` and `125 3` are both 125
+//! vertices without attributes and markers.
 //!
 //! Reference: H. Si: TetGen user's manual, "File formats".
 

@@ -1,17 +1,18 @@
-//! What the text formats of volumes share: counts that the bytes can hold, points, and indices into a table of names.
+//! What the text formats of volumes share: checked counts, points, and vertices found by their
+//! numbers.
 
 use std::collections::HashMap;
 
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, parse_integer};
 
-/// A count of things that take two bytes each at least.
+/// Reads a count of items that take at least 2 bytes each.
 pub(super) fn count(scanner: &mut Scanner<'_>, what: &'static str) -> Result<usize, MeshError> {
     let word = scanner.word();
     checked_count(scanner, word, what)
 }
 
-/// A word as a count of things that take two bytes each at least, all of them behind it.
+/// A word as a count of items that take at least 2 bytes each and stand behind it.
 pub(super) fn checked_count(
     scanner: &Scanner<'_>,
     word: Option<&[u8]>,
@@ -24,18 +25,18 @@ pub(super) fn checked_count(
     valid.ok_or(MeshError::CountTooLarge { place: scanner.place(), what, count, limit })
 }
 
-/// A whole number.
+/// Reads an integer.
 pub(super) fn integer(scanner: &mut Scanner<'_>) -> Result<i64, MeshError> {
     let word = scanner.word();
     word.and_then(parse_integer).ok_or_else(|| scanner.unexpected("a whole number", word))
 }
 
-/// Three numbers. A point that no cell uses may be anything, so they are not checked.
+/// Reads three numbers. They are not checked, because an unused point may be anything.
 pub(super) fn point(scanner: &mut Scanner<'_>) -> Result<[f64; 3], MeshError> {
     Ok([scanner.number()?, scanner.number()?, scanner.number()?])
 }
 
-/// Numbers that a file gives its vertices, and their places in the order of the file.
+/// The numbers by which a file names its vertices, and the place of each in the file.
 #[derive(Default)]
 pub(super) struct Names {
     places: HashMap<i64, u32>,
@@ -43,7 +44,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The next vertex has this number.
+    /// Adds the next vertex by its number.
     pub(super) fn push(&mut self, name: i64, place: Place) -> Result<(), MeshError> {
         if self.places.insert(name, self.n).is_some() {
             return Err(MeshError::Unexpected {
@@ -56,7 +57,7 @@ impl Names {
         Ok(())
     }
 
-    /// The place of the vertex of a number.
+    /// The place of the vertex with this number.
     pub(super) fn find(&self, name: i64, place: Place) -> Result<u32, MeshError> {
         let count = self.n.into();
         let out_of_range = MeshError::IndexOutOfRange { place, what: "vertex", index: name, count };

@@ -1,7 +1,8 @@
 //! Gmsh files (`.msh`), text and binary, versions 1, 2.2 and 4.1.
 //!
-//! Both encodings have the same numbers in the same order, but for the elements of version 2: in text each
-//! says its own type and tags, in binary many of one type follow each other. Version 1 is text.
+//! Both encodings have the same numbers in the same order, but for the elements of version 2: in
+//! text each says its own type and tags, in binary many of one type follow each other. Version 1 is
+//! text.
 //!
 //! Reference: C. Geuzaine, J.-F. Remacle: Gmsh reference manual, "MSH file format".
 
@@ -19,8 +20,8 @@ use element::ElementType;
 use groups::Groups;
 use source::Source;
 
-/// Reads a Gmsh file. Values at nodes are fields, each time step one of its own; groups of elements and
-/// values at elements are left out and reported.
+/// Reads a Gmsh file. Values at nodes are fields, each time step one of its own; groups of elements
+/// and values at elements are left out and reported.
 ///
 /// # Errors
 ///
@@ -110,7 +111,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The head of a section of version 4: how many blocks follow, and three totals that are not needed.
+    /// Reads the head of a section of version 4: the number of blocks, and three totals that are
+    /// not needed.
     fn begin_blocks(&mut self) -> Result<usize, MeshError> {
         self.source.begin_numbers();
         let n_blocks = self.source.count(3 * INT_BYTES, "blocks")?;
@@ -118,7 +120,7 @@ impl Reader<'_> {
         Ok(n_blocks)
     }
 
-    /// Blocks of numbers, then of coordinates.
+    /// Reads blocks of node numbers and coordinates.
     fn nodes_4(&mut self) -> Result<(), MeshError> {
         for _ in 0..self.begin_blocks()? {
             let n_dimensions = self.source.int()?;
@@ -137,7 +139,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Elements of version 1: number, type, group, entity, number of nodes, nodes.
+    /// Reads elements of version 1: number, type, group, entity, number of nodes, nodes.
     fn elements_1(&mut self) -> Result<(), MeshError> {
         for _ in 0..self.source.text_count("elements")? {
             self.source.int()?;
@@ -154,7 +156,8 @@ impl Reader<'_> {
         let mut n_left = self.source.text_count("elements")?;
         self.source.begin_numbers();
         while n_left > 0 {
-            // In text an element says its number first, in binary a block says how many elements it has.
+            // In text each element begins with its number; in binary a block begins with its type
+            // and size.
             let (element, n) = if self.source.is_text() {
                 self.source.int()?;
                 (self.element_type()?, 1)
@@ -229,7 +232,8 @@ impl Reader<'_> {
         self.cells.push(element.kind, nodes, self.names.len(), place, &mut self.report)
     }
 
-    /// The next node of an element: in text up to the end of its line, in binary as many as its type has.
+    /// The next node of an element; `None` at the end of its line in text, or behind as many nodes
+    /// as its type has in binary.
     fn node_name(&mut self, element: ElementType, n_read: usize) -> Result<Option<i64>, MeshError> {
         if self.source.is_text() {
             return self.source.integer_in_line("a node number");
@@ -241,7 +245,7 @@ impl Reader<'_> {
         name.map(Some)
     }
 
-    /// Passes a section up to its end, by name.
+    /// Skips a section up to its end, and reports it by name.
     fn skip(&mut self, word: &[u8]) {
         let end = [b"$End", &word[1..]].concat();
         match word {
@@ -254,8 +258,8 @@ impl Reader<'_> {
         self.source.pass(&end);
     }
 
-    /// Reads the names of groups and what belongs to them. They have no place in a mesh, so a section
-    /// that is not as it should be is left out.
+    /// Reads the names of groups, or what belongs to them. Both only serve the report, so a damaged
+    /// section is left out.
     fn groups(&mut self, word: &[u8]) {
         let mut source = self.source.clone();
         let is_read = match word {

@@ -1,5 +1,5 @@
-//! Words and numbers of a Gmsh file. In a binary one sections, counts of version 2 and names are text as well, and numbers
-//! begin behind the end of a line.
+//! Words and numbers of a Gmsh file. In a binary file sections, counts of version 2 and names are
+//! text, and numbers begin behind the end of a line.
 
 use crate::error::{MeshError, Place};
 use crate::text::{Scanner, Style, parse_integer};
@@ -11,7 +11,7 @@ pub(super) enum Encoding {
     Text,
     Binary {
         is_big_endian: bool,
-        /// Bytes of a number that counts or names something in version 4.
+        /// Bytes of a count or of the number of an item in version 4.
         size_bytes: usize,
     },
 }
@@ -43,7 +43,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The next word, of whatever line.
+    /// The next word, in this line or a later one.
     pub(super) fn word(&mut self) -> Option<&'a [u8]> {
         self.scanner.word()
     }
@@ -60,19 +60,19 @@ impl<'a> Source<'a> {
         words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ")
     }
 
-    /// The next word of this line as a whole number, `None` at its end.
+    /// The next word of this line as an integer; `None` at the end of the line.
     pub(super) fn integer_in_line(&mut self, what: &'static str) -> Result<Option<i64>, MeshError> {
         let Some(word) = self.scanner.word_in_line() else { return Ok(None) };
         let value = parse_integer(word);
         value.map(Some).ok_or_else(|| self.unexpected(what, Some(word)))
     }
 
-    /// A count that is text in binary files too, of things that take two bytes each at least.
+    /// A count of items of at least 2 bytes each, which is text in binary files too.
     pub(super) fn text_count(&mut self, what: &'static str) -> Result<usize, MeshError> {
         count(&mut self.scanner, what)
     }
 
-    /// A whole number that is text in binary files too.
+    /// An integer that is text in binary files too.
     pub(super) fn text_integer(&mut self) -> Result<i64, MeshError> {
         integer(&mut self.scanner)
     }
@@ -89,7 +89,8 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Reads the number that is 1 in the byte order of a binary file, whose longer numbers have `size_bytes`.
+    /// Reads the number 1, which tells the byte order of a binary file. Its counts have
+    /// `size_bytes`.
     pub(super) fn begin_binary(&mut self, size_bytes: usize) -> Result<(), MeshError> {
         self.encoding = Encoding::Binary { is_big_endian: false, size_bytes };
         self.begin_numbers();
@@ -102,7 +103,7 @@ impl<'a> Source<'a> {
         Ok(())
     }
 
-    /// A whole number of 32 bits.
+    /// An integer of 32 bits.
     pub(super) fn int(&mut self) -> Result<i64, MeshError> {
         match self.encoding {
             Encoding::Text => self.text_integer(),
@@ -113,7 +114,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// A whole number that counts or names something in version 4.
+    /// A count or the number of an item in version 4.
     pub(super) fn size(&mut self) -> Result<i64, MeshError> {
         let Encoding::Binary { is_big_endian, size_bytes } = self.encoding else {
             return self.text_integer();
@@ -132,7 +133,8 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// A count, as [`Source::size`] reads it, of things that take so many bytes each at least in a binary file.
+    /// A count, as [`Source::size`] reads it, of items of at least `bytes_each` bytes in a binary
+    /// file.
     pub(super) fn count(&mut self, bytes_each: usize, what: &'static str) -> Result<usize, MeshError> {
         if self.is_text() {
             return self.text_count(what);
@@ -141,7 +143,7 @@ impl<'a> Source<'a> {
         self.checked(count, bytes_each, what)
     }
 
-    /// A count of things that the bytes of a binary file must hold.
+    /// A count of items of at least `bytes_each` bytes, which the rest of the file must hold.
     pub(super) fn checked(
         &self,
         count: i64,
@@ -170,12 +172,12 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Three coordinates. A point that no element uses may be anything, so they are not checked.
+    /// Three coordinates. They are not checked, because an unused point may be anything.
     pub(super) fn point(&mut self) -> Result<[f64; 3], MeshError> {
         Ok([self.number()?, self.number()?, self.number()?])
     }
 
-    /// Passes everything up to a word and that word, or to the end of the file.
+    /// Skips everything up to and including a word, or up to the end of the file.
     pub(super) fn pass(&mut self, end: &[u8]) {
         if self.is_text() {
             while self.word().is_some_and(|word| word != end) {}
@@ -190,7 +192,7 @@ impl<'a> Source<'a> {
         taken.ok_or(MeshError::Truncated { place, what, expected: N as u64, found })
     }
 
-    /// An error that says what stands here instead of what should.
+    /// The error for something other than what is expected here.
     pub(super) fn unexpected(&self, expected: &'static str, found: Option<&[u8]>) -> MeshError {
         let error = self.scanner.unexpected(expected, found);
         match error {

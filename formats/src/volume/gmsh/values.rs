@@ -49,8 +49,8 @@ impl Reader<'_> {
         };
         let n_components = usize::try_from(n_components).unwrap_or(1);
         let n_points = self.points.len();
-        // With fewer values than nodes the field is of no use, and nothing is allocated for it: a file may
-        // hold any number of such.
+        // With fewer values than nodes the field is of no use, and nothing is allocated for it: a
+        // file may hold any number of such.
         let is_kept = usize::try_from(n_values).is_ok_and(|n_values| n_values >= n_points);
         let mut values = vec![0.0_f64; if is_kept { n_components * n_points } else { 0 }];
         let mut is_given = vec![false; if is_kept { n_points } else { 0 }];

@@ -1,5 +1,5 @@
-//! PLOT3D in binary. Nothing in such a file says in which byte order, precision and framing it is written;
-//! its length decides, which differs for every combination that its first numbers allow.
+//! PLOT3D in binary. Nothing in such a file says in which byte order, precision and framing it is
+//! written; its length decides, which differs for every combination that its first numbers allow.
 
 use super::{Block, Contents, are_blocks};
 use crate::ScalarType;
@@ -126,7 +126,8 @@ mod tests {
     use super::super::read;
     use crate::MeshError;
 
-    /// Blocks of unit cells, written in one of the ways there are; with their number in front of several.
+    /// Blocks of unit cells, written in one of the ways there are; with their number in front of
+    /// several.
     fn grid(blocks: &[[u32; 3]], is_big_endian: bool, has_records: bool, is_double: bool) -> Vec<u8> {
         let word = |value: u32| if is_big_endian { value.to_be_bytes() } else { value.to_le_bytes() };
         let number = |value: f32| match (is_double, is_big_endian) {

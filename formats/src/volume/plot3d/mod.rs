@@ -1,11 +1,12 @@
 //! PLOT3D: curvilinear grids of one or more blocks, and solutions on them in files of their own.
 //!
-//! The hexahedra of a grid of one block become five tetrahedra each, in two patterns that alternate, so
-//! that those of neighbours fit. Blocks meet anywhere on their sides, where patterns may not alternate;
-//! hexahedra of several blocks become six tetrahedra each, cut by the places of their corners.
+//! The hexahedra of a grid of one block become five tetrahedra each, in two patterns that
+//! alternate, so that those of neighbours fit. Blocks meet anywhere on their sides, where patterns
+//! may not alternate; hexahedra of several blocks become six tetrahedra each, cut by the places of
+//! their corners.
 //!
-//! Reference: P. Walatka, P. Buning, L. Pierce, P. Elson: "PLOT3D user's manual" (NASA TM 101067, 1990),
-//! chapter 8.
+//! Reference: P. Walatka, P. Buning, L. Pierce, P. Elson: "PLOT3D user's manual" (NASA TM 101067,
+//! 1990), chapter 8.
 
 mod binary;
 mod text;
@@ -16,8 +17,8 @@ use super::scalars::Numbers;
 use crate::error::{MeshError, Place};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
-/// Five tetrahedra of a hexahedron with VTK's order of vertices, for cells whose indices have an even
-/// sum and an odd one.
+/// Five tetrahedra of a hexahedron with VTK's order of vertices, for cells whose indices have an
+/// even sum and an odd one.
 const PATTERNS: [[[usize; 4]; 5]; 2] = [
     [[0, 1, 2, 5], [3, 0, 2, 7], [4, 0, 7, 5], [6, 2, 5, 7], [0, 2, 7, 5]],
     [[0, 1, 3, 4], [1, 2, 3, 6], [5, 1, 4, 6], [7, 3, 6, 4], [1, 3, 4, 6]],
@@ -65,8 +66,8 @@ fn blocks(bytes: &[u8], contents: Contents) -> Result<Vec<Block>, MeshError> {
     if text::is_text(bytes) { text::read(bytes, contents) } else { binary::read(bytes, contents) }
 }
 
-/// Reads a grid and any number of solutions on it: `density`, `momentum` and `energy`, of later solutions
-/// under names with a number. Cells at blanked points are left out and counted.
+/// Reads a grid and any number of solutions on it: `density`, `momentum` and `energy`, of later
+/// solutions under names with a number. Cells at blanked points are left out and counted.
 ///
 /// # Errors
 ///

@@ -13,7 +13,8 @@ pub(super) fn is_text(bytes: &[u8]) -> bool {
     !start.is_empty() && start.iter().all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace())
 }
 
-/// Reads the blocks. The number of numbers tells whether the file begins with the number of its blocks.
+/// Reads the blocks. The number of numbers tells whether the file begins with the number of its
+/// blocks.
 ///
 /// # Errors
 ///

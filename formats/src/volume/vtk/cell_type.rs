@@ -6,8 +6,8 @@ use crate::volume::cells::CellKind;
 /// Number of a tetrahedron.
 pub(in crate::volume) const TETRAHEDRON: u8 = 10;
 
-/// What a cell type means for a volume. Of Lagrange cells (68 to 74) and Bézier cells (75 to 81) the
-/// corners stand before all other nodes, as in the cells of the second order.
+/// What a cell type means for a volume. Of Lagrange cells (68 to 74) and Bézier cells (75 to 81)
+/// the corners stand before all other nodes, as in the cells of the second order.
 ///
 /// # Errors
 ///

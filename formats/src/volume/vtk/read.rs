@@ -167,7 +167,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// An array of whatever belongs to points, cells or nothing.
+    /// Reads an array of points, of cells or of neither.
     fn array(&mut self, keyword: &[u8]) -> Result<(), MeshError> {
         let n = match self.belongs {
             Belongs::Points(n) | Belongs::Cells(n) => n,
@@ -308,7 +308,7 @@ impl Reader<'_> {
     }
 }
 
-/// An index of a point, which is checked against their number later.
+/// The index of a point. Whether there is such a point is checked later.
 fn node(value: Option<Option<i64>>, cell: usize) -> Result<u32, MeshError> {
     let place = Place::item("cell", cell);
     let value = value.flatten().ok_or(MeshError::Missing { place, what: "node" })?;

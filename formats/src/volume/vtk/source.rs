@@ -9,7 +9,7 @@ use crate::{ScalarType, text};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ArrayType {
     Numbers(NumberType),
-    /// Zeros and ones, in a binary file eight in a byte.
+    /// Zeros and ones, 8 in a byte in a binary file.
     Bits,
     Texts,
 }
@@ -58,7 +58,7 @@ impl<'a> Source<'a> {
         rest[..len].strip_suffix(b"\r").unwrap_or(&rest[..len])
     }
 
-    /// The next word, of whatever line.
+    /// The next word, in this line or a later one.
     pub(super) fn word(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.at..];
         let skipped = rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
@@ -77,7 +77,7 @@ impl<'a> Source<'a> {
         word
     }
 
-    /// The next word, unless it does not pass `test`.
+    /// The next word if it passes `test`; otherwise nothing is read.
     pub(super) fn word_if(&mut self, test: impl Fn(&[u8]) -> bool) -> Option<&'a [u8]> {
         let (at, line) = (self.at, self.line);
         let word = self.word().filter(|word| test(word));
@@ -93,7 +93,7 @@ impl<'a> Source<'a> {
         Ok(decode(word))
     }
 
-    /// A count of things, each of which takes a byte at least.
+    /// A count of items of at least 1 byte each.
     pub(super) fn count(&mut self, what: &'static str) -> Result<usize, MeshError> {
         let word = self.word();
         let count = word.and_then(parse_integer).and_then(|count| u64::try_from(count).ok());
@@ -108,7 +108,7 @@ impl<'a> Source<'a> {
         valid.ok_or(MeshError::CountTooLarge { place: self.place(), what, count, limit })
     }
 
-    /// The name of a type, of which an array may be.
+    /// Reads the type of an array.
     pub(super) fn array_type(&mut self) -> Result<ArrayType, MeshError> {
         let word = self.word();
         let lower = word.map(<[u8]>::to_ascii_lowercase);
@@ -122,14 +122,15 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The name of a number type.
+    /// Reads a type of numbers.
     pub(super) fn number_type(&mut self) -> Result<NumberType, MeshError> {
         let word = self.word();
         let number = word.and_then(|word| number_type(&word.to_ascii_lowercase()));
         number.ok_or_else(|| self.unexpected("a number type", word))
     }
 
-    /// `n_tuples * n_components` numbers of a type. In a binary file they begin behind the end of this line.
+    /// `n_tuples * n_components` numbers of a type. In a binary file they begin behind the end of
+    /// this line.
     pub(super) fn numbers(
         &mut self,
         [n_tuples, n_components]: [usize; 2],
@@ -154,8 +155,8 @@ impl<'a> Source<'a> {
         Ok(Numbers { number, bytes })
     }
 
-    /// `n_tuples * n_components` bits, each as a byte. In a binary file they begin behind the end of this
-    /// line, the highest bit of a byte first.
+    /// `n_tuples * n_components` bits, each as a byte. In a binary file they begin behind the end
+    /// of this line, the highest bit of a byte first.
     pub(super) fn bits(&mut self, [n_tuples, n_components]: [usize; 2]) -> Result<Numbers, MeshError> {
         let number = NumberType::Kept(ScalarType::U8);
         if !self.is_binary {
@@ -171,8 +172,8 @@ impl<'a> Source<'a> {
         Ok(Numbers { number, bytes: bits.take(count).collect() })
     }
 
-    /// Skips `n_tuples * n_components` texts. In a text file each has a line; in a binary one its length
-    /// stands before it.
+    /// Skips `n_tuples * n_components` texts. In a text file each has a line; in a binary one its
+    /// length stands before it.
     pub(super) fn skip_texts(&mut self, [n_tuples, n_components]: [usize; 2]) -> Result<(), MeshError> {
         self.take_line();
         let n = self.check_count(n_tuples as u64 * n_components as u64, 1, "texts")?;
@@ -249,7 +250,7 @@ fn decode(word: &[u8]) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Components of a colour or texture coordinate, where a line gives them.
+/// A number of components from 1 to 64.
 pub(super) fn small_count(word: Option<&[u8]>) -> Option<usize> {
     let count = text::parse_integer(word?)?;
     usize::try_from(count).ok().filter(|count| (1..=64).contains(count))

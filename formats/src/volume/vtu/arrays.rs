@@ -14,15 +14,15 @@ use crate::volume::scalars::{NumberType, Numbers, push_text};
 /// How the file as a whole encodes its arrays.
 pub(super) struct Encoding<'a> {
     pub is_big_endian: bool,
-    /// Bytes of the lengths before an array.
+    /// Bytes of each length in the header of an array.
     pub header_bytes: usize,
     pub compressor: Option<Compressor>,
-    /// What stands behind the underscore of the appended data.
+    /// The appended data, from behind the underscore on.
     pub appended: &'a [u8],
-    /// Whether that is base64 and not raw.
+    /// Whether the appended data are in base64.
     pub is_appended_base64: bool,
-    /// Bytes of the appended data that arrays have not used yet. Honest arrays do not overlap; without this a thousand arrays
-    /// could all be the same bytes.
+    /// Bytes of the appended data that no array has used yet. Arrays of sound files do not overlap.
+    /// Without this limit a small file could declare a thousand arrays over the same bytes.
     pub n_unused: Cell<usize>,
 }
 
@@ -53,7 +53,7 @@ impl Encoding<'_> {
         }
     }
 
-    /// Takes so many bytes from those of the appended data that no array has used.
+    /// Subtracts `n_bytes` from the appended data that no array has used.
     fn use_up(&self, n_bytes: usize) -> Result<(), MeshError> {
         let n_unused = self.n_unused.get();
         let rest = n_unused.checked_sub(n_bytes).ok_or(MeshError::CountTooLarge {
@@ -66,7 +66,8 @@ impl Encoding<'_> {
         Ok(())
     }
 
-    /// Raw bytes: a length, or a table of compressed blocks, and the data. Gives the bytes used as well.
+    /// Reads raw bytes: a length or a table of compressed blocks, then the data. Also returns the
+    /// number of bytes used.
     fn read_raw(&self, element: Element, bytes: &[u8]) -> Result<(Numbers, usize), MeshError> {
         if let Some(compressor) = self.compressor {
             let blocks = self.blocks(bytes)?;
@@ -80,11 +81,11 @@ impl Encoding<'_> {
         Ok((self.whole_numbers(element, data)?, self.header_bytes + length))
     }
 
-    /// Base64: the table of compressed blocks is encoded by itself, a plain length together with the data. Gives the characters
-    /// used as well.
+    /// Reads base64, in which a table of compressed blocks is encoded by itself and a plain length
+    /// together with the data. Also returns the number of characters used.
     fn read_base64(&self, element: Element, text: &[u8]) -> Result<(Numbers, usize), MeshError> {
         let Some(compressor) = self.compressor else {
-            // Behind the padding of the first stream another array may begin.
+            // Another array may begin behind the padding of this one.
             let head = decode(text.get(..padded(self.header_bytes)).unwrap_or(text))?;
             let n_bytes = self.length(&head, 0)?.saturating_add(self.header_bytes);
             let text = text.get(..padded(n_bytes)).ok_or_else(|| cut_short("an array", text.len()))?;
@@ -115,7 +116,7 @@ impl Encoding<'_> {
         Ok(Numbers::from_bytes(number, bytes, self.is_big_endian))
     }
 
-    /// The length at a place of a header.
+    /// Length number `index` of a header.
     fn length(&self, bytes: &[u8], index: usize) -> Result<usize, MeshError> {
         let start = index * self.header_bytes;
         let bytes = bytes.get(start..start + self.header_bytes);
@@ -131,7 +132,8 @@ impl Encoding<'_> {
         usize::try_from(length).map_err(|_| cut_short("an array", bytes.len()))
     }
 
-    /// The table before compressed data: the number of blocks, their length, that of the last, and the compressed lengths.
+    /// Reads the table before compressed data: the number of blocks, the length of each, the length
+    /// of the last, and the compressed lengths.
     fn blocks(&self, bytes: &[u8]) -> Result<Blocks, MeshError> {
         let [n_blocks, block_bytes, last_bytes] =
             [self.length(bytes, 0)?, self.length(bytes, 1)?, self.length(bytes, 2)?];
@@ -156,7 +158,7 @@ impl Blocks {
         (3 + self.compressed.len()) * length_bytes
     }
 
-    /// Of all blocks together, as claimed.
+    /// Compressed bytes of all blocks, as the table claims.
     fn compressed_bytes(&self) -> usize {
         self.compressed.iter().fold(0, |sum, &bytes| sum.saturating_add(bytes))
     }
@@ -232,7 +234,7 @@ fn from_text(element: Element, text: &str) -> Result<Numbers, MeshError> {
     Ok(Numbers { number, bytes })
 }
 
-/// Characters that base64 takes for so many bytes.
+/// Characters of base64 for `n_bytes` bytes.
 fn padded(n_bytes: usize) -> usize {
     n_bytes.div_ceil(3).saturating_mul(4)
 }

@@ -1,7 +1,8 @@
 //! Blocks of compressed data, by any of VTK's compressors.
 //!
-//! LZ4 blocks have no frame. An LZMA block is an `.xz` file of one stream with one block; its container
-//! is read here, because the dictionary that it asks for has nothing to do with the size of the data.
+//! LZ4 blocks have no frame. An LZMA block is an `.xz` file of one stream with one block; its
+//! container is read here, because the dictionary that it asks for has nothing to do with the size
+//! of the data.
 //!
 //! Reference: L. Collin, "The .xz file format", version 1.2.1 (2024), sections 2 and 3.
 
@@ -39,7 +40,8 @@ impl Compressor {
         }
     }
 
-    /// Appends the data of a block, at most `expected` bytes and one more, which `max_inflation` allows.
+    /// Appends the data of a block, at most `expected` bytes and one more, which `max_inflation`
+    /// allows.
     ///
     /// # Errors
     ///

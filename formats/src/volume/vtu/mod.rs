@@ -1,5 +1,5 @@
-//! VTU files: VTK's XML of unstructured grids, with arrays as text, as base64 or appended raw, plain or
-//! compressed by zlib, LZ4 or LZMA.
+//! VTU files: VTK's XML of unstructured grids, with arrays as text, as base64 or appended raw,
+//! plain or compressed by zlib, LZ4 or LZMA.
 //!
 //! Reference: Kitware, "VTK XML formats" (VTK documentation, details on the file formats).
 

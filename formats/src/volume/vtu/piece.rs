@@ -86,8 +86,8 @@ impl Piece {
     }
 }
 
-/// Whether a piece says that it has no points and no cells, and has no place for points. Programs that
-/// write in parallel leave such pieces where a process had nothing to write.
+/// Whether a piece says that it has no points and no cells, and has no place for points. Programs
+/// that write in parallel leave such pieces where a process had nothing to write.
 pub(super) fn is_bare(piece: Node<'_, '_>) -> bool {
     let has_none = |name| piece.attribute(name).is_some_and(|count| count.parse() == Ok(0_u64));
     let coordinates = child(piece, "Points").ok().and_then(|points| arrays(points).next());
@@ -126,7 +126,8 @@ pub(super) fn name_field_data(parent: Node<'_, '_>, report: &mut FileReport) {
     }
 }
 
-/// Reads the values at points. Texts and what is encoded in an unknown way are left out and reported.
+/// Reads the values at points. Texts and what is encoded in an unknown way are left out and
+/// reported.
 fn read_fields(
     piece: Node<'_, '_>,
     encoding: &Encoding<'_>,
