@@ -235,6 +235,14 @@ fn of_pieces_and_times() {
     let entry =
         |time: usize, file: &str| format!("<DataSet timestep=\"{time}\" part=\"0\" file=\"{file}\"/>");
     let entries = [entry(0, "parts/0.pvtu"), entry(1, "parts/1.pvtu"), entry(2, "parts/0_0.vtu")].concat();
+    // The same by their parts, those of one time apart from each other.
+    let by_part = [(0, 0), (1, 0), (0, 1), (1, 1)]
+        .map(|(time, part)| entry(time, &format!("parts/{time}_{part}.vtu")))
+        .concat();
+    write(
+        "by_part.pvd",
+        &format!("<VTKFile type=\"Collection\"><Collection>{by_part}</Collection></VTKFile>"),
+    );
     write(
         "all.pvd",
         &format!(
@@ -242,6 +250,8 @@ fn of_pieces_and_times() {
         ),
     );
     let (mesh, report) = read_volume(folder.path().join("all.pvd")).unwrap();
+    let (by_part, _) = read_volume(folder.path().join("by_part.pvd")).unwrap();
+    assert_eq!(by_part, mesh);
     assert_eq!((mesh.tetrahedra.len(), mesh.positions.len()), (2, 8));
     let values = |name: &str| mesh.attribute(name).unwrap().values().collect::<Vec<f64>>();
     assert_eq!(values("heat"), [1.0, 2.0, 3.0, 4.0, 1.0, 2.0, 3.0, 4.0]);

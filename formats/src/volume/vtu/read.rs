@@ -1,7 +1,7 @@
-//! Reading a VTU file, and the files that refer to several of them: `.pvtu`, the pieces of one grid, and
-//! `.pvd`, a grid at several times.
+//! Reading a VTU file, and the files that refer to several of them: `.pvtu`, the pieces of one
+//! grid, and `.pvd`, a grid at several times.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
@@ -14,7 +14,8 @@ use crate::input::{path_below, read_below};
 use crate::volume::pending::{Fields, Points, finish};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
-/// Reads a VTU, PVTU or PVD file; the files that it refers to are looked for in its folder and below.
+/// Reads a VTU, PVTU or PVD file; the files that it refers to are looked for in its folder and
+/// below.
 ///
 /// Of several pieces the points are numbered on, and a field is taken if every piece has it with as
 /// many components of one type. Of several times the fields stand beside each other.
@@ -126,13 +127,14 @@ fn read_file(
     }
 }
 
-/// Reads the grids of a collection. Parts of one time, which follow each other, are pieces of one grid.
+/// Reads the grids of a collection. Parts of one time are pieces of one grid, in any order of times.
 fn read_times(
     collection: Node<'_, '_>,
     files: &mut Files,
     report: &mut FileReport,
 ) -> Result<Vec<Step>, MeshError> {
     let mut times: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
     for (entry, file) in references(collection, "DataSet", "file") {
         if !is_grid(file) {
             let id = report.found(Kind::Part, file);
@@ -140,10 +142,11 @@ fn read_times(
             continue;
         }
         let time = entry.attribute("timestep").unwrap_or("");
-        match times.last_mut().filter(|(last, _)| *last == time) {
-            Some((_, parts)) => parts.push(file),
-            None => times.push((time, vec![file])),
+        let place = *places.entry(time).or_insert(times.len());
+        if place == times.len() {
+            times.push((time, Vec::new()));
         }
+        times[place].1.push(file);
     }
     let mut steps = Vec::new();
     for (time, parts) in times {
