@@ -23,7 +23,7 @@ pub mod volume;
 pub use bound::estimate::EstimateKind;
 pub use builder::{
     Build, BuildError, BuildOptions, Decimator, Observer, Phase, Progress, VolumeBuild, VolumeOptions,
-    bounding_diagonal, build, build_volume, build_volume_with, build_with,
+    bounding_diagonal, build, build_volume, build_volume_with, build_with, repair_volume,
 };
 pub use decimate::fusion::{FusionOptions, FusionReport};
 pub use decimate::jade::{JadeBound, JadeOptions, MAX_K, MIN_C1, Placement};
@@ -32,7 +32,7 @@ pub use decimate::progressive::journal::Counts;
 pub use decimate::progressive::{ProgressiveBound, ProgressiveOptions, ProgressiveReport};
 pub use history::{Deviation, History, HistoryError, Levels, NEVER};
 pub use mesh::{RepairReport, TetrahedronRepairReport};
-pub use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh, TriangleMesh};
+pub use nephrite_formats::{Attribute, MeshFault, ScalarType, TetrahedronMesh, TriangleMesh};
 pub use progressive_mesh::{Encoded, ProgressiveMesh, STREAM_HEADER_BYTES, StreamError};
 pub use query::{
     CurvePoint, Cut, Delta, INFLECTION_RATIO, Landing, Lod, Picker, Projection, QueryError, View,

@@ -104,7 +104,7 @@ fn of_distances() {
     let options = MeasureOptions { n_samples: 2000, ..MeasureOptions::default() };
     let volumes = [ball_volume(6), ball_volume(4)];
     let distance = measure(&one, &other, &options).unwrap();
-    let fields = measure_fields(&volumes[0], &volumes[1]);
+    let fields = measure_fields(&volumes[0], &volumes[1]).unwrap();
     for factor in POWERS.map(|power| 2.0_f64.powi(power)).into_iter().chain([1e-12, 1e12]) {
         let scaled = [&one, &other].map(|mesh| scaled_surface(mesh, factor));
         let found = measure(&scaled[0], &scaled[1], &options).unwrap();
@@ -119,7 +119,7 @@ fn of_distances() {
             assert!((ratio - 1.0).abs() < 1e-4, "{ratio} times the distance at a scale of {factor:e}");
         }
         let scaled = [&volumes[0], &volumes[1]].map(|volume| scaled_volume(volume, factor));
-        for (found, expected) in measure_fields(&scaled[0], &scaled[1]).iter().zip(&fields) {
+        for (found, expected) in measure_fields(&scaled[0], &scaled[1]).unwrap().iter().zip(&fields) {
             assert!((found.max / expected.max - 1.0).abs() < 1e-4 && found.n_outside == expected.n_outside);
         }
     }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use crate::MeshFormat;
+use crate::{MeshFault, MeshFormat};
 
 /// What a message lists for a file of no known format.
 const WHAT_IS_READ: &str = "meshes in PLY, OBJ, STL, OFF, glTF and GLB and volumes in VTU, PVTU, PVD, legacy VTK, \
@@ -172,17 +172,8 @@ pub enum MeshError {
         problem: String,
     },
     /// A mesh to be written contradicts itself.
-    #[error("the mesh contradicts itself: {what} of {place} is {found}, expected {expected}")]
-    InconsistentMesh {
-        /// The array at fault.
-        place: Place,
-        /// The property at fault.
-        what: &'static str,
-        /// Its value.
-        found: u64,
-        /// The value or the limit that would be right.
-        expected: u64,
-    },
+    #[error("the mesh contradicts itself: {0}")]
+    InconsistentMesh(#[from] MeshFault),
     /// A mesh larger than the format can describe.
     #[error("{count} {what} do not fit in {format}, which holds at most {limit}")]
     TooLargeForFormat {

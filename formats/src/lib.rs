@@ -7,6 +7,7 @@ mod distinct;
 mod error;
 mod face_colors;
 mod faces;
+mod fault;
 mod foreign;
 mod format;
 mod gltf;
@@ -28,6 +29,7 @@ mod volume;
 
 pub use contents::{Change, Fate, Item, Kind};
 pub use error::{MeshError, Place};
+pub use fault::MeshFault;
 pub use format::{MeshFormat, read_mesh, read_mesh_bytes, write_mesh, write_mesh_to};
 pub use input::read_input;
 pub use mesh::{Attribute, ScalarType, TriangleMesh};

@@ -12,7 +12,7 @@
 //!
 //! [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can include it.
 
-use crate::error::{MeshError, Place};
+use crate::fault::{Arrays, MeshFault};
 use std::borrow::Cow;
 
 /// Triangles over shared vertices, with attributes that belong to vertices.
@@ -96,39 +96,18 @@ impl TriangleMesh {
         std::array::from_fn(|axis| self.origin[axis] + f64::from(position[axis]))
     }
 
-    /// Checks what the types leave open: indices in range, finite coordinates, attributes of the right length.
+    /// Checks what the types leave open: indices in range, finite coordinates, a rounding that is a length, attributes of the
+    /// right length.
     ///
-    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers refuse those that do not.
+    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers and builds refuse those that do not.
     ///
     /// # Errors
     ///
-    /// [`MeshError::InconsistentMesh`] or [`MeshError::NonFinite`] for the first contradiction.
-    pub fn check(&self) -> Result<(), MeshError> {
-        let n_vertices = self.positions.len();
-        for (i, position) in self.positions.iter().enumerate() {
-            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
-                return Err(MeshError::NonFinite { place: Place::item("vertex", i), value: value.into() });
-            }
-        }
-        for (i, triangle) in self.triangles.iter().enumerate() {
-            if let Some(&index) = triangle.iter().find(|&&index| index as usize >= n_vertices) {
-                let (place, expected) = (Place::item("triangle", i), n_vertices as u64);
-                return Err(MeshError::InconsistentMesh {
-                    place,
-                    what: "an index",
-                    found: index.into(),
-                    expected,
-                });
-            }
-        }
-        for (i, attribute) in self.attributes.iter().enumerate() {
-            let expected = n_vertices as u64 * attribute.stride_bytes() as u64;
-            let (place, found) = (Place::item("attribute", i), attribute.bytes.len() as u64);
-            if attribute.n_components == 0 || found != expected {
-                return Err(MeshError::InconsistentMesh { place, what: "the length", found, expected });
-            }
-        }
-        Ok(())
+    /// The first contradiction.
+    pub fn check(&self) -> Result<(), MeshFault> {
+        let Self { origin, positions, triangles, attributes, rounding } = self;
+        let (origin, rounding) = (*origin, *rounding);
+        Arrays { simplex: "triangle", origin, positions, simplices: triangles, attributes, rounding }.check()
     }
 }
 

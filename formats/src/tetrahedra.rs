@@ -5,7 +5,7 @@
 //! components of one.
 
 use crate::Attribute;
-use crate::error::{MeshError, Place};
+use crate::fault::{Arrays, MeshFault};
 
 /// Tetrahedra over shared vertices, with fields that belong to vertices.
 ///
@@ -67,42 +67,26 @@ impl TetrahedronMesh {
         self.tetrahedra.iter().map(|&tetrahedron| self.six_volumes(tetrahedron)).sum::<f64>() / 6.0
     }
 
-    /// Checks what the types leave open: indices in range, finite coordinates, fields of the right length.
+    /// Checks what the types leave open: indices in range, finite coordinates, a rounding that is a length, fields of the right
+    /// length.
     ///
-    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers refuse those that do not.
+    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers and builds refuse those that do not.
     ///
     /// # Errors
     ///
-    /// [`MeshError::InconsistentMesh`] or [`MeshError::NonFinite`] for the first contradiction.
-    pub fn check(&self) -> Result<(), MeshError> {
-        let n_vertices = self.positions.len();
-        for (i, position) in self.positions.iter().enumerate() {
-            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
-                return Err(MeshError::NonFinite { place: Place::item("vertex", i), value: value.into() });
-            }
-        }
-        let inconsistent =
-            |place, what, found, expected| Err(MeshError::InconsistentMesh { place, what, found, expected });
-        for (i, tetrahedron) in self.tetrahedra.iter().enumerate() {
-            if let Some(&index) = tetrahedron.iter().find(|&&index| index as usize >= n_vertices) {
-                let place = Place::item("tetrahedron", i);
-                return inconsistent(place, "an index", index.into(), n_vertices as u64);
-            }
-        }
-        for (i, attribute) in self.attributes.iter().enumerate() {
-            let expected = n_vertices as u64 * attribute.stride_bytes() as u64;
-            let found = attribute.bytes.len() as u64;
-            if attribute.n_components == 0 || found != expected {
-                return inconsistent(Place::item("attribute", i), "the length", found, expected);
-            }
-        }
-        Ok(())
+    /// The first contradiction.
+    pub fn check(&self) -> Result<(), MeshFault> {
+        let Self { origin, positions, tetrahedra, attributes, rounding } = self;
+        let (origin, rounding) = (*origin, *rounding);
+        Arrays { simplex: "tetrahedron", origin, positions, simplices: tetrahedra, attributes, rounding }
+            .check()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ScalarType;
 
     #[test]
     fn contradictions_are_named() {
@@ -116,9 +100,23 @@ mod tests {
         assert_eq!(good.volume(), 0.0);
         let mut bad = good.clone();
         bad.tetrahedra[1][3] = 4;
-        assert!(matches!(bad.check(), Err(MeshError::InconsistentMesh { found: 4, expected: 4, .. })));
+        let index = MeshFault::Index { simplex: "tetrahedron", at: 1, found: 4, n_vertices: 4 };
+        assert_eq!(bad.check(), Err(index));
+        let mut bad = good.clone();
+        bad.positions[2][1] = f32::INFINITY;
+        assert_eq!(bad.check(), Err(MeshFault::NotFinite { vertex: 2, found: f32::INFINITY }));
+        for found in [-1.0, f64::INFINITY, f64::NEG_INFINITY] {
+            let bad = TetrahedronMesh { rounding: found, ..good.clone() };
+            assert_eq!(bad.check(), Err(MeshFault::Rounding { found }));
+            let bad = TetrahedronMesh { origin: [0.0, f64::INFINITY, 0.0], ..good.clone() };
+            assert_eq!(bad.check(), Err(MeshFault::Origin { found: f64::INFINITY }));
+        }
+        let bad = TetrahedronMesh { rounding: f64::NAN, ..good.clone() };
+        assert!(matches!(bad.check(), Err(MeshFault::Rounding { .. })));
         let mut bad = good;
-        bad.positions[2][1] = f32::NAN;
-        assert!(matches!(bad.check(), Err(MeshError::NonFinite { .. })));
+        bad.attributes.push(Attribute::from_values("f", ScalarType::U8, 2, [0.0; 7]));
+        assert_eq!(bad.check(), Err(MeshFault::AttributeBytes { at: 0, found: 7, expected: 8 }));
+        bad.attributes[0].n_components = 0;
+        assert_eq!(bad.check(), Err(MeshFault::NoComponents { at: 0 }));
     }
 }

@@ -115,6 +115,40 @@ pub(crate) fn fuse_soup(script: &[u8]) {
     }
 }
 
+/// Hands in triangles and tetrahedra of which one thing contradicts the rest: a build refuses them.
+///
+/// The script: what to spoil and with what, then a soup as of [`build_soup`].
+///
+/// # Panics
+///
+/// If a build accepts what contradicts itself.
+pub(crate) fn refuse_contradictions(script: &[u8]) {
+    let mut script = Script::new(script);
+    let (what, value) = (script.below(6), script.below(3));
+    let mut mesh = soup(&mut script);
+    let n_vertices = small(mesh.positions.len());
+    mesh.triangles.push([0, 1, 2]);
+    let length = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][value];
+    match what {
+        0 => mesh.rounding = [-1.0, f64::NAN, f64::INFINITY][value],
+        1 => mesh.origin[value] = length,
+        2 => mesh.positions[0][value] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][value],
+        3 => mesh.triangles[0][value] = u32::from(n_vertices) + u32::from(script.u8()),
+        _ => {
+            let bytes = vec![0; (usize::from(n_vertices) + 4 - what).min(value)];
+            let n_components = u32::from(what == 4);
+            mesh.attributes.push(Attribute { name: "a".into(), scalar: ScalarType::U8, n_components, bytes });
+        }
+    }
+    let refused = nephrite::build(&mesh, &BuildOptions::default());
+    assert!(matches!(refused, Err(BuildError::Mesh(_))), "{mesh:?}");
+    let TriangleMesh { origin, positions, triangles, attributes, rounding } = mesh;
+    let tetrahedra = triangles.into_iter().map(|[a, b, c]| [a, b, c, 0]).collect();
+    let volume = TetrahedronMesh { origin, positions, tetrahedra, attributes, rounding };
+    let refused = build_volume(&volume, &VolumeOptions::default()).map(drop);
+    assert!(matches!(refused, Err(BuildError::Mesh(_))), "{volume:?}");
+}
+
 fn soup(script: &mut Script<'_>) -> TriangleMesh {
     let (positions, attributes) = vertices(script);
     let n_vertices = small(positions.len());

@@ -120,6 +120,12 @@ fn build_soup_otherwise() {
 }
 
 #[test]
+fn refuse_contradictions() {
+    on_this_thread();
+    check!().for_each(soup::refuse_contradictions);
+}
+
+#[test]
 fn fuse_soup() {
     on_this_thread();
     check!().for_each(soup::fuse_soup);

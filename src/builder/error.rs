@@ -2,6 +2,7 @@
 
 use crate::decimate::Stopped;
 use crate::mesh::TooMany;
+use nephrite_formats::MeshFault;
 
 /// Why a build failed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -19,30 +20,9 @@ pub enum BuildError {
         /// Tetrahedra before repair.
         n_tetrahedra: usize,
     },
-    /// A volume contradicts itself: an index without a vertex, a field of the wrong length.
-    #[error("the mesh contradicts itself: found {found} where {expected} would be right or the limit")]
-    Inconsistent {
-        /// Index or length.
-        found: u64,
-        /// Length or limit that would be right.
-        expected: u64,
-    },
-    /// A coordinate is not a number, or not finite.
-    #[error("vertex {vertex} has a coordinate that is not finite")]
-    NotFinite {
-        /// Index of the vertex.
-        vertex: usize,
-    },
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {found}, the mesh has {n_vertices}")]
-    IndexOutOfRange {
-        /// Index of the triangle.
-        triangle: usize,
-        /// The index it holds.
-        found: u32,
-        /// Vertices there are.
-        n_vertices: usize,
-    },
+    /// The mesh contradicts itself.
+    #[error("the mesh contradicts itself: {0}")]
+    Mesh(#[from] MeshFault),
     /// More vertices or simplices than ids of 32 bits have room for, see [`mesh::MAX_SIMPLICES`](crate::mesh::MAX_SIMPLICES).
     #[error("{found} {what}, there can be at most {limit}")]
     TooLarge {

@@ -9,7 +9,7 @@ mod write;
 pub use error::BuildError;
 pub use options::{BuildOptions, Decimator, VolumeOptions};
 pub use progress::{Observer, Phase, Progress};
-pub use volume::{VolumeBuild, build_volume, build_volume_with};
+pub use volume::{VolumeBuild, build_volume, build_volume_with, repair_volume};
 
 use crate::decimate::progressive::ProgressiveReport;
 use crate::decimate::{Decimated, Input, Watch, jade, progressive};
@@ -149,7 +149,8 @@ pub fn build_with<'a>(
 ) -> Result<Build, BuildError> {
     options.check()?;
     let mesh = mesh.into();
-    check_mesh(&mesh)?;
+    check_counts(mesh.positions.len(), mesh.triangles.len())?;
+    mesh.check()?;
     simplify(mesh.into_owned(), options, observer)
 }
 
@@ -228,18 +229,4 @@ fn bound_of_dropped(Repaired { mesh, dropped, .. }: &Repaired) -> f64 {
 /// ```
 pub fn bounding_diagonal<'a>(mesh: impl Into<Vertices<'a>>) -> f64 {
     bounds::bounding_diagonal(mesh.into().positions)
-}
-
-fn check_mesh(mesh: &TriangleMesh) -> Result<(), BuildError> {
-    check_counts(mesh.positions.len(), mesh.triangles.len())?;
-    let is_finite = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
-    if let Some(vertex) = mesh.positions.iter().position(|p| !is_finite(p)) {
-        return Err(BuildError::NotFinite { vertex });
-    }
-    let n_vertices = mesh.positions.len();
-    let flat = mesh.triangles.as_flattened();
-    match flat.iter().position(|&v| v as usize >= n_vertices) {
-        Some(at) => Err(BuildError::IndexOutOfRange { triangle: at / 3, found: flat[at], n_vertices }),
-        None => Ok(()),
-    }
 }

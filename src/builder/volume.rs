@@ -6,7 +6,7 @@ use crate::decimate::{Decimated, Input};
 use crate::history::History;
 use crate::mesh::{TetrahedronRepairReport, check_counts, repair_tetrahedra};
 use crate::store::Vertices;
-use nephrite_formats::{MeshError, TetrahedronMesh};
+use nephrite_formats::{MeshFault, TetrahedronMesh};
 use std::ops::ControlFlow;
 
 /// What a build of a volume leaves: the history of a fusion, and how many fusions there were.
@@ -89,7 +89,7 @@ pub fn build_volume_with(
 ) -> Result<VolumeBuild, BuildError> {
     options.check()?;
     check_counts(mesh.positions.len(), mesh.tetrahedra.len())?;
-    mesh.check().map_err(|error| inconsistent(&error))?;
+    mesh.check()?;
     let (n_vertices_in, n_tetrahedra_in) = (mesh.positions.len(), mesh.tetrahedra.len());
     let tell = |phase, n_triangles, error| {
         let max_error = options.max_error;
@@ -118,12 +118,20 @@ pub fn build_volume_with(
     })
 }
 
-fn inconsistent(error: &MeshError) -> BuildError {
-    match *error {
-        MeshError::NonFinite { place: nephrite_formats::Place::Item(_, vertex), .. } => {
-            BuildError::NotFinite { vertex: usize::try_from(vertex).unwrap_or(usize::MAX) }
-        }
-        MeshError::InconsistentMesh { found, expected, .. } => BuildError::Inconsistent { found, expected },
-        _ => BuildError::Inconsistent { found: 0, expected: 0 },
-    }
+/// The volume that [`build_volume`] fuses, and what was repaired. Level 0 of its file is this.
+///
+/// # Errors
+///
+/// The first contradiction in `mesh`.
+///
+/// ```
+/// let (repaired, report) = nephrite::repair_volume(&nephrite::generate::ball_volume(4))?;
+/// assert_eq!((report.vertices_welded, repaired.check()), (0, Ok(())));
+/// # Ok::<(), nephrite::MeshFault>(())
+/// ```
+pub fn repair_volume(
+    mesh: &TetrahedronMesh,
+) -> Result<(TetrahedronMesh, TetrahedronRepairReport), MeshFault> {
+    mesh.check()?;
+    Ok(repair_tetrahedra(mesh))
 }

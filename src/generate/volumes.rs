@@ -79,7 +79,7 @@ mod tests {
         assert!(mesh.tetrahedra.iter().all(|&t| mesh.six_volumes(t) > 0.0));
         assert!((mesh.volume() / volume - 1.0).abs() < tolerance, "{}", mesh.volume());
         // A closed surface around it: every edge of the boundary has two faces.
-        let surface = crate::volume::boundary(mesh);
+        let surface = crate::volume::boundary_of_checked(mesh);
         let mut edges: Vec<[u32; 2]> = surface
             .triangles
             .iter()

@@ -45,7 +45,7 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Chooses the levels of a history that passes [`History::check`].
+    /// Chooses the levels of a history.
     ///
     /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the others,
     /// unless the history states deviations as well; the last step of the history is kept, and without a limit every step before a
@@ -55,8 +55,18 @@ impl Levels {
     ///
     /// # Errors
     ///
-    /// [`HistoryError::Grows`] when the coarsest step has more simplices than the input.
+    /// The first invariant of the history that does not hold, and [`HistoryError::Grows`] when the coarsest step has more
+    /// simplices than the input.
     pub fn choose<const CORNERS: usize>(
+        history: &History<CORNERS>,
+        limit: Option<u32>,
+    ) -> Result<Self, HistoryError> {
+        history.check()?;
+        Self::of_checked(history, limit)
+    }
+
+    /// As [`choose`](Self::choose), of a history that passes [`History::check`].
+    pub(crate) fn of_checked<const CORNERS: usize>(
         history: &History<CORNERS>,
         limit: Option<u32>,
     ) -> Result<Self, HistoryError> {

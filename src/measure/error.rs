@@ -1,5 +1,7 @@
 //! Why two meshes could not be compared.
 
+use nephrite_formats::MeshFault;
+
 /// One of the two meshes that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -51,6 +53,14 @@ pub enum MeasureError {
         vertex: u32,
         /// Where it is.
         position: [f64; 3],
+    },
+    /// A mesh contradicts itself elsewhere.
+    #[error("the {side} contradicts itself: {fault}")]
+    Inconsistent {
+        /// Which of the two meshes.
+        side: Side,
+        /// The contradiction.
+        fault: MeshFault,
     },
     /// The origin of a mesh is infinite or not a number.
     #[error("the origin of the {side} is {origin:?}, which is not finite")]

@@ -1,6 +1,7 @@
 //! How far the fields of two volumes are apart, sampled at the vertices of each in the other.
 
 use super::locator::Locator;
+use super::{MeasureError, Side};
 use nephrite_formats::{Attribute, TetrahedronMesh};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -30,7 +31,32 @@ pub struct FieldDistance {
 
 /// Measures every field that both volumes have under the same name and with the same number of
 /// components. O(n log n).
-pub fn measure_fields(reference: &TetrahedronMesh, mesh: &TetrahedronMesh) -> Vec<FieldDistance> {
+///
+/// # Errors
+///
+/// [`MeasureError::Inconsistent`] for a volume that contradicts itself.
+///
+/// ```
+/// use nephrite::generate::box_volume;
+/// use nephrite::measure::measure_fields;
+/// use nephrite::{Attribute, ScalarType};
+/// let heights = |lift: f64| {
+///     let mut volume = box_volume([3; 3]);
+///     let values: Vec<f64> = volume.positions.iter().map(|p| f64::from(p[2]) + lift).collect();
+///     volume.attributes.push(Attribute::from_values("height", ScalarType::F64, 1, values));
+///     volume
+/// };
+/// let fields = measure_fields(&heights(0.0), &heights(0.5))?;
+/// assert_eq!(fields[0].max, 0.5);
+/// # Ok::<(), nephrite::measure::MeasureError>(())
+/// ```
+pub fn measure_fields(
+    reference: &TetrahedronMesh,
+    mesh: &TetrahedronMesh,
+) -> Result<Vec<FieldDistance>, MeasureError> {
+    for (side, volume) in [(Side::Reference, reference), (Side::Mesh, mesh)] {
+        volume.check().map_err(|fault| MeasureError::Inconsistent { side, fault })?;
+    }
     let pairs: Vec<[&Attribute; 2]> = reference
         .attributes
         .iter()
@@ -40,7 +66,7 @@ pub fn measure_fields(reference: &TetrahedronMesh, mesh: &TetrahedronMesh) -> Ve
         })
         .collect();
     if pairs.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let forward = Places::find(reference, mesh);
     let backward = Places::find(mesh, reference);
@@ -63,7 +89,7 @@ pub fn measure_fields(reference: &TetrahedronMesh, mesh: &TetrahedronMesh) -> Ve
             n_outside: reference.positions.len() + mesh.positions.len() - n_samples,
         }
     });
-    measured.collect()
+    Ok(measured.collect())
 }
 
 /// Where the vertices of one volume are in the other.

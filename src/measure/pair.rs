@@ -9,6 +9,7 @@ use super::surface::{Frame, MeasuredSurface};
 use super::sweep::{self, SampleSums};
 use crate::TriangleMesh;
 use crate::geometry::distance::Segment;
+use nephrite_formats::MeshFault;
 
 /// Rounding of one distance and of everything that led to its corners, in units of the largest
 /// coordinate: `1024 f64::EPSILON`. The closest point costs 16, placing a mesh in the frame 2, and
@@ -31,6 +32,11 @@ impl Pair {
     ///
     /// [`MeasureError`] if one of them is no surface.
     pub(super) fn new(reference: &TriangleMesh, mesh: &TriangleMesh) -> Result<Self, MeasureError> {
+        for (side, found) in [(Side::Reference, reference.rounding), (Side::Mesh, mesh.rounding)] {
+            if !(found.is_finite() && found >= 0.0) {
+                return Err(MeasureError::Inconsistent { side, fault: MeshFault::Rounding { found } });
+            }
+        }
         let frame = Frame::new(reference)?;
         let (first, second) = rayon::join(
             || MeasuredSurface::new(reference, &frame, Side::Reference),

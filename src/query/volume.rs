@@ -42,7 +42,7 @@ impl Cut<'_> {
     ///
     /// As [`to_volume`](Self::to_volume).
     pub fn boundary(&self) -> Result<TriangleMesh, QueryError> {
-        Ok(volume::boundary(&self.to_volume()?))
+        Ok(volume::boundary_of_checked(&self.to_volume()?))
     }
 
     /// The section of the level of a volume with a plane given in file coordinates: triangles with

@@ -67,7 +67,7 @@ impl<const CORNERS: usize> Source<'_, CORNERS> {
         }
         check_mesh(*mesh, history)?;
         history.check()?;
-        let levels = Levels::choose(history, options.levels)?;
+        let levels = Levels::of_checked(history, options.levels)?;
         let pieces = Pieces::new(history, &levels, options.window_levels)?;
         let layout = lay_out(*mesh, &pieces)?;
         let vertices = VertexOrder::new(*mesh, history, &levels);

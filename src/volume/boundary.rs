@@ -1,12 +1,27 @@
 //! The surface around a volume.
 
 use crate::mesh::{UsedVertices, boundary_triangles};
-use nephrite_formats::{TetrahedronMesh, TriangleMesh};
+use nephrite_formats::{MeshFault, TetrahedronMesh, TriangleMesh};
 
-/// The faces that belong to one tetrahedron only, counter-clockwise as seen from outside if the
-/// tetrahedra have positive volume. Boundary vertices keep their order and their values; inner
-/// vertices are left out. O(n).
-pub fn boundary(volume: &TetrahedronMesh) -> TriangleMesh {
+/// The surface around a volume: the faces that belong to one tetrahedron only, seen counter-clockwise from outside where the
+/// tetrahedra have positive volume. Vertices keep their order and their values; those inside are left out. O(n).
+///
+/// # Errors
+///
+/// The first contradiction in `volume`.
+///
+/// ```
+/// let surface = nephrite::boundary(&nephrite::generate::box_volume([2, 2, 2]))?;
+/// assert_eq!((surface.positions.len(), surface.triangles.len()), (26, 48));
+/// # Ok::<(), nephrite::MeshFault>(())
+/// ```
+pub fn boundary(volume: &TetrahedronMesh) -> Result<TriangleMesh, MeshFault> {
+    volume.check()?;
+    Ok(boundary_of_checked(volume))
+}
+
+/// As [`boundary`], of a volume that contradicts itself nowhere.
+pub(crate) fn boundary_of_checked(volume: &TetrahedronMesh) -> TriangleMesh {
     let mut triangles = boundary_triangles(&volume.tetrahedra, volume.positions.len());
     let used = UsedVertices::new(volume.positions.len(), triangles.as_flattened());
     used.renumber(triangles.as_flattened_mut());
@@ -30,7 +45,7 @@ mod tests {
             tetrahedra: vec![[1, 2, 3, 4]],
             ..Default::default()
         };
-        let surface = boundary(&volume);
+        let surface = boundary(&volume).unwrap();
         assert_eq!((surface.positions.len(), surface.triangles.len()), (4, 4));
         let point = |v: u32| surface.positions[v as usize].map(f64::from);
         let six_volumes: f64 = surface

@@ -4,4 +4,5 @@ mod boundary;
 mod slice;
 
 pub use boundary::boundary;
+pub(crate) use boundary::boundary_of_checked;
 pub use slice::{Plane, slice};

@@ -149,7 +149,7 @@ pub(super) fn observe(state: &State, watch: Watch<'_>) -> Result<(), Stopped> {
 mod tests {
     use super::*;
     use crate::generate::ball_volume;
-    use crate::volume::boundary;
+    use crate::volume::boundary_of_checked as boundary;
     use std::ops::ControlFlow;
 
     /// The boundary of a ball and one vertex in its middle, to which every tetrahedron goes.

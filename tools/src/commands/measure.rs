@@ -6,10 +6,9 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use nephrite::measure::{self, Distance, FieldDistance, Histogram, MeasureOptions, OneSided};
-use nephrite::mesh::repair_tetrahedra;
 use nephrite::query::Simplex;
-use nephrite::{Attribute, ScalarType, TetrahedronMesh, TriangleMesh};
-use nephrite_formats::{FileFormat, MeshFormat};
+use nephrite::{Attribute, ScalarType, TriangleMesh};
+use nephrite_formats::{FileFormat, MeshError, MeshFormat};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
@@ -191,11 +190,14 @@ impl Inputs {
         let simplices = [reference.simplex(), mesh.simplex()];
         let (fields, volumes) = match (&reference, &mesh) {
             (Mesh::Volume(one), Mesh::Volume(other)) => {
-                (measure::measure_fields(one, other), Some([one.volume(), other.volume()]))
+                let fields =
+                    measure::measure_fields(one, other).map_err(|source| failed(arguments, source))?;
+                (fields, Some([one.volume(), other.volume()]))
             }
             _ => (Vec::new(), None),
         };
-        Ok(Self { surfaces: [reference, mesh].map(surface), simplices, fields, volumes })
+        let surfaces = [surface(reference)?, surface(mesh)?];
+        Ok(Self { surfaces, simplices, fields, volumes })
     }
 }
 
@@ -205,19 +207,15 @@ fn read(arguments: &Arguments, source: &Source) -> Result<Mesh, Failure> {
     let Read { mesh, report } = meshes::read(source, format)?;
     files::tell(&source.to_string(), &report.notes());
     Ok(match mesh {
-        Mesh::Volume(volume) => Mesh::Volume(repaired(&volume)),
+        Mesh::Volume(volume) => Mesh::Volume(nephrite::repair_volume(&volume).map_err(MeshError::from)?.0),
         surface => surface,
     })
 }
 
-fn repaired(volume: &TetrahedronMesh) -> TetrahedronMesh {
-    repair_tetrahedra(volume).0
-}
-
-fn surface(mesh: Mesh) -> TriangleMesh {
+fn surface(mesh: Mesh) -> Result<TriangleMesh, MeshError> {
     match mesh {
-        Mesh::Surface(mesh) => mesh,
-        Mesh::Volume(volume) => nephrite::volume::boundary(&volume),
+        Mesh::Surface(mesh) => Ok(mesh),
+        Mesh::Volume(volume) => Ok(nephrite::boundary(&volume)?),
     }
 }
 
