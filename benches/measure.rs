@@ -5,10 +5,12 @@
 #![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use nephrite::TriangleMesh;
-use nephrite::generate;
-use nephrite::geometry::distance::{Triangle, point_triangle_distance_sq};
 use nephrite::measure::{MeasureOptions, check_within, measure, sample_distances};
+use nephrite::{TriangleMesh, generate};
+use space::{Vector, point_triangle_distance_sq};
+
+#[path = "../tests/support/space.rs"]
+mod space;
 
 /// Frequencies of two spheres: 69,620 and 7,220 triangles.
 const FREQUENCIES: [u32; 2] = [59, 19];
@@ -57,13 +59,13 @@ fn samples(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn triangles(mesh: &TriangleMesh) -> Vec<Triangle> {
+fn triangles(mesh: &TriangleMesh) -> Vec<[Vector; 3]> {
     mesh.triangles.iter().map(|corners| corners.map(|v| mesh.point(v))).collect()
 }
 
 /// `n_points` centroids of triangles, repeated as needed.
 fn centroids(mesh: &TriangleMesh, n_points: usize) -> Vec<[f64; 3]> {
-    let centroid = |[a, b, c]: Triangle| std::array::from_fn(|axis| (a[axis] + b[axis] + c[axis]) / 3.0);
+    let centroid = |[a, b, c]: [Vector; 3]| std::array::from_fn(|axis| (a[axis] + b[axis] + c[axis]) / 3.0);
     triangles(mesh).into_iter().map(centroid).cycle().take(n_points).collect()
 }
 

@@ -6,8 +6,7 @@
 mod support;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use nephrite::Lod;
-use nephrite::history::Levels;
+use nephrite::{Levels, Lod};
 use std::hint::black_box;
 
 fn stab(criterion: &mut Criterion) {

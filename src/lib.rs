@@ -1,24 +1,42 @@
 //! One mesh in, every level of detail out, each with an error that is stated.
 //!
-//! [`build()`] makes the levels, [`store`] keeps them, [`Lod`] answers which triangles make the mesh at an error, a budget or a
-//! distance. `docs/drawing-a-level.md` in the repository shows how a level goes to a graphics library, from wgpu to WebGL.
+//! [`build()`] makes the levels, [`Build::write`] keeps them in one file, and [`Lod`] answers which triangles make the mesh at
+//! an error, a budget or a distance. `docs/drawing-a-level.md` in the repository shows how a level goes to a graphics library,
+//! from wgpu to WebGL.
+//!
+//! * Build: [`build()`] and [`build_with`] from a [`TriangleMesh`] under [`BuildOptions`], [`build_volume`] from a
+//!   [`TetrahedronMesh`] under [`VolumeOptions`]. A [`History`] that something else has made is written by
+//!   [`History::write`].
+//! * Ask: [`Lod::at_error`] and its like give a [`Cut`], whose [`Run`]s are drawn or copied as they are. A [`Picker`] chooses a
+//!   level for a [`View`], [`Lod::delta`] and [`Lod::geomorph`] lead from one level to another.
+//! * Trust: [`Lod::verify`] checks every rule of the format, [`ErrorTable`] proves the errors of a file anew, and [`measure`]
+//!   compares any two surfaces.
+//! * Stream: a [`ProgressiveMesh`] is built up by the operations of a progressive build, one by one as they arrive.
+#![allow(unreachable_pub, reason = "items of private modules are named below where they are public")]
 
-pub mod bound;
+mod bound;
 mod builder;
-pub mod decimate;
+mod decimate;
 mod flat;
 pub mod generate;
-pub mod geometry;
-pub mod history;
+mod geometry;
+mod history;
 pub mod measure;
-pub mod mesh;
-pub mod progressive_mesh;
-pub mod query;
-pub mod reprove;
-pub mod store;
-pub mod tree;
-pub mod vertex_cache;
-pub mod volume;
+mod mesh;
+mod progressive_mesh;
+mod query;
+mod reprove;
+mod store;
+mod tree;
+mod vertex_cache;
+mod volume;
+
+/// Parts of the engine for programs that compare it with others. Nothing here is stable.
+#[cfg(feature = "internals")]
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::tree::{Layout, Lifetime, Tree};
+}
 
 pub use bound::estimate::EstimateKind;
 pub use builder::{
@@ -26,7 +44,7 @@ pub use builder::{
     bounding_diagonal, build, build_volume, build_volume_with, build_with, repair_volume,
 };
 pub use decimate::fusion::{FusionOptions, FusionReport};
-pub use decimate::jade::{JadeBound, JadeOptions, MAX_K, MIN_C1, Placement};
+pub use decimate::jade::{JadeBound, JadeOptions, Placement};
 pub use decimate::progressive::events::{Event, EventKind, EventLog, Tally};
 pub use decimate::progressive::journal::Counts;
 pub use decimate::progressive::{ProgressiveBound, ProgressiveOptions, ProgressiveReport};
@@ -35,7 +53,7 @@ pub use mesh::{RepairReport, TetrahedronRepairReport};
 pub use nephrite_formats::{Attribute, MeshFault, ScalarType, TetrahedronMesh, TriangleMesh};
 pub use progressive_mesh::{Encoded, ProgressiveMesh, STREAM_HEADER_BYTES, StreamError};
 pub use query::{
-    CurvePoint, Cut, Delta, INFLECTION_RATIO, Landing, Lod, Picker, Projection, QueryError, View,
+    CurvePoint, Cut, Delta, INFLECTION_RATIO, Landing, Lod, Picker, Projection, QueryError, Simplex, View,
 };
 pub use reprove::{ErrorTable, ReproveError};
 pub use store::{

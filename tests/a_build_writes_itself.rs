@@ -86,7 +86,7 @@ fn operations_are_written_where_there_are_some() {
     let progressive = BuildOptions::with(ProgressiveOptions::default());
     build(mesh(), &progressive).unwrap().write_to(&mut stream, &options).unwrap();
     let lod = Lod::from_bytes(stream.get_ref()).unwrap();
-    assert!(!lod.file().operations().is_empty());
+    assert!(!lod.operations().is_empty());
     let none = build(mesh(), &BuildOptions::default()).unwrap().write_to(&mut stream, &options);
     assert!(matches!(none, Err(WriteError::Operations(StreamError::NoOperations))));
     let volume = build_volume(&generate::box_volume([2; 3]), &VolumeOptions::default()).unwrap();

@@ -6,8 +6,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::store::{CompactFault, OpenError, StoreOptions, VerifyError};
+use nephrite::{CompactFault, Lod, OpenError, StoreOptions, VerifyError};
 use nephrite_formats::neph::{Header, NephError, SECTION_RECORD_BYTES, SectionKind, SectionRecord};
 use rayon::prelude::*;
 use support::damage::{Outcome, Seal, open_and_use};

@@ -8,7 +8,7 @@
 
 mod support;
 
-use nephrite::store::OpenError;
+use nephrite::OpenError;
 use nephrite_formats::neph::{HEADER_BYTES, NephError};
 use rayon::prelude::*;
 use support::damage::{Outcome, Seal, open_and_use};
@@ -142,7 +142,7 @@ fn every_field_at_its_boundary_values_is_refused_or_harmless() {
     let mesh = grid(4);
     let history = decimate(&mesh, usize::MAX, 3);
     let forms = [false, true].map(|is_compact| {
-        let options = nephrite::store::StoreOptions { is_compact, ..Default::default() };
+        let options = nephrite::StoreOptions { is_compact, ..Default::default() };
         support::file_bytes_with(&mesh, &history, &options)
     });
     for bytes in forms {

@@ -4,9 +4,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::store::StoreOptions;
-use nephrite::tree::{Difference, Run};
+use nephrite::{Difference, Lod, Run, StoreOptions};
 use std::collections::HashMap;
 use support::synthetic::{Random, decimate, grid};
 
@@ -121,7 +119,8 @@ fn deltas_lead_across_the_borders_of_windows() {
 #[test]
 fn neighbours_differ_by_a_run_per_height_at_most() {
     let lod = lod(60, None);
-    let n_heights = nephrite::tree::n_heights(lod.n_levels()) as usize;
+    // Of the interval tree: the bits of the last level, and one more.
+    let n_heights = (u32::BITS - (lod.n_levels() - 1).leading_zeros() + 1) as usize;
     for level in 1..lod.n_levels() {
         for delta in [lod.delta(level - 1, level), lod.delta(level, level - 1)] {
             assert!(delta.leaving().count() <= n_heights && delta.entering().count() <= n_heights);

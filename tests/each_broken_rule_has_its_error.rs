@@ -5,8 +5,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::store::{OpenError, VerifyError};
+use nephrite::{Lod, OpenError, VerifyError};
 use nephrite_formats::neph::{
     AttributeRecord, HEADER_BYTES, Header, NephError, SECTION_RECORD_BYTES, SectionKind, SectionRecord,
 };

@@ -3,9 +3,13 @@
 
 #![allow(clippy::unwrap_used, reason = "tests on small meshes")]
 
+#[path = "support/damage.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with other tests")]
+#[allow(clippy::cast_possible_truncation, reason = "small files")]
+mod damage;
 mod engine;
-mod support;
 
+use damage::with_section;
 use engine::build_all;
 use nephrite::{
     Bound, Build, BuildOptions, ErrorTable, EstimateKind, JadeOptions, Lod, ProgressiveOptions, ReproveError,
@@ -13,7 +17,6 @@ use nephrite::{
 };
 use nephrite_formats::neph::SectionKind;
 use std::io::Cursor;
-use support::damage::with_section;
 
 fn file_bytes(build: &Build) -> Vec<u8> {
     let mut bytes = Cursor::new(vec![]);

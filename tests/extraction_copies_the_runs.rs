@@ -23,7 +23,7 @@ fn extraction_writes_what_the_runs_say_and_no_more() {
         assert_eq!(cut.par_extract_into(&mut parallel), Ok(n_indices));
         assert!(plain[..n_indices] == by_runs && plain == parallel);
         assert!(plain[n_indices..].iter().all(|&index| index == u32::MAX));
-        let error = nephrite::query::QueryError::BufferTooSmall { found: n_indices - 1, expected: n_indices };
+        let error = nephrite::QueryError::BufferTooSmall { found: n_indices - 1, expected: n_indices };
         assert_eq!(cut.extract_into(&mut plain[..n_indices - 1]), Err(error));
     }
 }

@@ -4,11 +4,9 @@
 
 mod support;
 
-use nephrite::geometry::distance::point_triangle_distance_sq;
-use nephrite::geometry::vector::{Vector, add_scaled, distance_sq, widen};
-use nephrite::query::Landing;
-use nephrite::{BuildOptions, Lod, TriangleMesh, generate};
+use nephrite::{BuildOptions, Landing, Lod, TriangleMesh, generate};
 use std::collections::HashSet;
+use support::space::{Vector, add_scaled, distance_sq, point_triangle_distance_sq, widen};
 use support::synthetic::{decimate, grid};
 
 fn built(mesh: &TriangleMesh, max_error: Option<f64>) -> Lod {

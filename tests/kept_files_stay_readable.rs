@@ -138,7 +138,7 @@ fn answers(bytes: &[u8]) -> String {
     let all: Vec<u8> = all.into_iter().flat_map(u64::to_le_bytes).collect();
     let (first, last) = (counts[0], counts[counts.len() - 1]);
     let mut line = format!("{} levels of {first} to {last} simplices, {:016x}", counts.len(), checksum(&all));
-    let operations = lod.file().operations();
+    let operations = lod.operations();
     if !operations.is_empty() {
         let mut played = ProgressiveMesh::from_bytes(operations).unwrap();
         let n_operations = played.refine(usize::MAX);

@@ -4,10 +4,7 @@
 
 mod support;
 
-use nephrite::StoreOptions;
-use nephrite::history::{History, Levels, NEVER};
-use nephrite::query::QueryError;
-use nephrite::{Lod, TriangleMesh};
+use nephrite::{History, Levels, Lod, NEVER, QueryError, StoreOptions, TriangleMesh};
 use proptest::prelude::*;
 use support::synthetic::{Random, decimate, grid, succeed};
 

@@ -8,7 +8,7 @@
 mod support;
 
 use cap::Cap;
-use nephrite::store::StoreOptions;
+use nephrite::StoreOptions;
 use std::alloc::System;
 use std::path::Path;
 use support::damage::open_and_use;

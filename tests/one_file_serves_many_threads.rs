@@ -4,8 +4,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::query::Cut;
+use nephrite::{Cut, Lod};
 
 #[test]
 fn one_file_serves_hundreds_of_threads() {

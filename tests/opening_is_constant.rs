@@ -8,8 +8,7 @@
     reason = "a test that cannot go on has failed"
 )]
 
-use nephrite::Lod;
-use nephrite::store::OpenError;
+use nephrite::{Lod, OpenError};
 use nephrite_formats::neph::{self, CHUNK_BYTES, HEADER_BYTES, Header, MAGIC, SectionKind, VERSION};
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};

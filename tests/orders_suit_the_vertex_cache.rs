@@ -3,11 +3,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::history::Levels;
-use nephrite::query::QueryError;
-use nephrite::store::StoreOptions;
-use nephrite::vertex_cache::{CACHE_LEN, miss_ratio};
+use nephrite::{CACHE_LEN, Levels, Lod, QueryError, StoreOptions, miss_ratio};
 use support::synthetic::{decimate, grid};
 
 fn sorted(indices: &[u32]) -> Vec<[u32; 3]> {

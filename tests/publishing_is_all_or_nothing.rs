@@ -6,8 +6,9 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::{History, ScalarType, StoreOptions, StreamError, TriangleMesh, WriteError, check_attributes};
+use nephrite::{
+    History, Lod, ScalarType, StoreOptions, StreamError, TriangleMesh, WriteError, check_attributes,
+};
 use std::fs;
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
 use std::path::Path;

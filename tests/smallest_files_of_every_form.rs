@@ -7,8 +7,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::store::StoreOptions;
+use nephrite::{Lod, StoreOptions};
 use support::damage::{Outcome, open_and_use};
 use support::synthetic::{decimate, grid, succeed};
 use support::{file_bytes_with, on_this_thread};

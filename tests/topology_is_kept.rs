@@ -111,9 +111,7 @@ fn non_manifold_input_keeps_its_complex_vertices() {
         }
     }
     let build = build_all(&mesh, &BuildOptions::default());
-    assert!(
-        build.history().vertex_death[..rows as usize].iter().all(|&death| death == nephrite::history::NEVER)
-    );
+    assert!(build.history().vertex_death[..rows as usize].iter().all(|&death| death == nephrite::NEVER));
     let last = (build.history().errors.len() - 1) as u32;
     assert!(alive_at(build.history(), last).len() < mesh.triangles.len() / 3);
     let three_faces = |triangles: &[[u32; 3]]| edge_faces(triangles).values().filter(|&&n| n == 3).count();

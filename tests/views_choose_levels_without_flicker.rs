@@ -4,8 +4,7 @@
 
 mod support;
 
-use nephrite::Lod;
-use nephrite::query::{Picker, Projection, View};
+use nephrite::{Lod, Picker, Projection, View};
 use support::synthetic::{Random, decimate, grid};
 
 fn lod() -> Lod {

@@ -1,9 +1,7 @@
 //! What can go wrong in a comparison.
 
-use nephrite::BuildError;
+use nephrite::{BuildError, OpenError, QueryError, WriteError};
 use nephrite::measure::MeasureError;
-use nephrite::query::QueryError;
-use nephrite::store::{OpenError, WriteError};
 use nephrite_formats::MeshError;
 use std::io;
 

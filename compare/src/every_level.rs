@@ -1,8 +1,7 @@
 //! From a mesh to all its levels, in memory.
 
 use crate::CompareError;
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{BuildOptions, Lod, TriangleMesh};
+use nephrite::{BuildOptions, Lod, Provenance, StoreOptions, TriangleMesh, write_to};
 use std::io::Cursor;
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -3,9 +3,7 @@
 use crate::damage::{Outcome, Seal, open_and_use as use_all, reseal};
 use crate::script::Script;
 use crate::synthetic::{decimate, grid, succeed};
-use nephrite::Lod;
-use nephrite::query::{Picker, Projection, View};
-use nephrite::store::StoreOptions;
+use nephrite::{Lod, Picker, Projection, StoreOptions, View};
 use nephrite_formats::neph::HEADER_BYTES;
 use std::io::Cursor;
 use std::sync::LazyLock;

@@ -2,8 +2,7 @@
 
 use crate::RenderError;
 use glam::Vec3;
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{BuildOptions, History, Lod, TriangleMesh, generate};
+use nephrite::{BuildOptions, History, Lod, Provenance, StoreOptions, TriangleMesh, generate, write_to};
 use std::io::Cursor;
 use std::ops::ControlFlow;
 

@@ -3,7 +3,7 @@
 use glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
-use nephrite::query::{Projection, View};
+use nephrite::{Projection, View};
 
 /// Angle that the height of the picture covers, in radians.
 const FOV_Y: f32 = 0.7;

@@ -1,6 +1,6 @@
 //! What can go wrong between a file and a picture.
 
-use nephrite::store::{OpenError, VerifyError, WriteError};
+use nephrite::{OpenError, VerifyError, WriteError};
 use std::error::Error;
 use std::io;
 use std::path::PathBuf;

@@ -4,7 +4,7 @@ use crate::color::{Color, color};
 use crate::frame::{Frame, Group, InstanceRecord};
 use crate::{Camera, Model};
 use glam::{Mat4, Vec3};
-use nephrite::query::{Picker, View};
+use nephrite::{Picker, View};
 use std::time::{Duration, Instant};
 
 /// Distance between neighbours, in radii of an instance.

@@ -67,7 +67,7 @@ fn quantized(normal: Vec3) -> [i16; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nephrite::history::NEVER;
+    use nephrite::NEVER;
     use nephrite::{History, TriangleMesh};
 
     #[test]

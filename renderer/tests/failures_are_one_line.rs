@@ -1,8 +1,7 @@
 //! Promise: the program writes whole pictures and one JSON object, or fails with one line.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use nephrite::store::{Provenance, StoreOptions};
-use nephrite::{BuildOptions, generate};
+use nephrite::{BuildOptions, Provenance, StoreOptions, generate};
 use std::ops::ControlFlow::Continue;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -17,7 +16,7 @@ fn write_levels(path: &Path) {
     let mesh = generate::torus(30, 15);
     let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
     let options = StoreOptions::default();
-    nephrite::store::write(path, &build.mesh, &build.history, &Provenance::default(), &options).unwrap();
+    nephrite::write(path, &build.mesh, &build.history, &Provenance::default(), &options).unwrap();
 }
 
 /// The line of the program itself; drivers write other lines.

@@ -11,6 +11,7 @@ pub struct Limits {
 
 impl Limits {
     /// No limit.
+    #[cfg(test)]
     pub const NONE: Self = Self { local: f64::INFINITY, global: f64::INFINITY };
 
     /// Both limits times a factor.

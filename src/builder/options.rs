@@ -3,7 +3,7 @@
 use super::BuildError;
 use crate::bound::estimate::EstimateKind;
 use crate::decimate::fusion::FusionOptions;
-use crate::decimate::jade::{JadeBound, JadeOptions, MAX_K, MIN_C1, Placement};
+use crate::decimate::jade::{JadeBound, JadeOptions, Placement};
 use crate::decimate::progressive::{ProgressiveBound, ProgressiveOptions};
 use crate::store::{Bound, Method};
 use serde_json::{Value, json};
@@ -23,7 +23,7 @@ pub enum Decimator {
 ///
 /// ```
 /// use nephrite::{BuildOptions, Decimator};
-/// use nephrite::decimate::progressive::ProgressiveOptions;
+/// use nephrite::ProgressiveOptions;
 /// let options = BuildOptions { max_error: Some(0.1), ..BuildOptions::with(ProgressiveOptions::default()) };
 /// assert!(matches!(options.decimator, Decimator::Progressive(_)));
 /// ```
@@ -140,8 +140,8 @@ impl BuildOptions {
         match self.decimator {
             Decimator::Jade(jade) => {
                 let (k, c1, c2) = (jade.k_value(), jade.c1_value(), jade.c2);
-                check("k", "from 1 to 1e12", k, (1.0..=MAX_K).contains(&k))?;
-                check("c1", "from 1.001 to 16", c1, (MIN_C1..=16.0).contains(&c1))?;
+                check("k", "from 1 to 1e12", k, (1.0..=JadeOptions::MAX_K).contains(&k))?;
+                check("c1", "from 1.001 to 16", c1, (JadeOptions::MIN_C1..=16.0).contains(&c1))?;
                 check("c2", "from 1 to 16", c2, (1.0..=16.0).contains(&c2))?;
                 check_part("aspect loss", jade.aspect_loss())
             }

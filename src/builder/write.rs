@@ -20,7 +20,7 @@ impl Build {
     /// new file is in place and may be lost by a crash of the system.
     ///
     /// ```
-    /// use nephrite::store::{Bound, StoreOptions};
+    /// use nephrite::{Bound, StoreOptions};
     /// use nephrite::{BuildOptions, Lod, build, generate};
     /// let path = std::env::temp_dir().join("nephrite-torus.neph");
     /// let torus = build(&generate::torus(16, 8), &BuildOptions::default())?;

@@ -12,7 +12,7 @@ pub(crate) use groups::Groups;
 pub(crate) const NO_INDEX: u32 = u32::MAX;
 
 /// An index or a count of a mesh, whose simplices and vertices leave room below [`NO_INDEX`], see
-/// [`MAX_SIMPLICES`](crate::mesh::MAX_SIMPLICES).
+/// `MAX_SIMPLICES`.
 #[expect(clippy::cast_possible_truncation, reason = "checked before a mesh is taken")]
 #[inline(always)]
 pub(crate) fn to_index(at: usize) -> u32 {

@@ -64,9 +64,9 @@ pub fn point_triangle_distance_sq(p: Vector, [a, b, c]: &Triangle) -> f64 {
     ab_sq.min(bc_sq).min(ac_sq).min(inside_sq)
 }
 
-/// Point of a triangle that is closest to `p`.
-#[inline]
-pub fn closest_on_triangle(p: Vector, triangle: &Triangle) -> Vector {
+/// Point of a triangle that is closest to `p`: what its distance is tested against.
+#[cfg(test)]
+fn closest_on_triangle(p: Vector, triangle: &Triangle) -> Vector {
     let [wa, wb, wc] = closest_weights(p, triangle);
     let [a, b, c] = *triangle;
     // The corner of largest weight is the base, so that a point on a corner or an edge is exact.
@@ -123,9 +123,10 @@ pub fn segment_segment_distance_sq(first: Segment, second: Segment) -> f64 {
     }
 }
 
-/// The point of the first segment and the point of the second that are closest to each other.
-#[inline]
-pub fn closest_between_segments(first: Segment, second: Segment) -> (Vector, Vector) {
+/// The point of the first segment and the point of the second that are closest to each other: what
+/// their distance is tested against.
+#[cfg(test)]
+fn closest_between_segments(first: Segment, second: Segment) -> (Vector, Vector) {
     let ([a, b], [c, d]) = (first, second);
     let (ab, cd) = (sub(b, a), sub(d, c));
     let candidates = [

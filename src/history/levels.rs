@@ -21,7 +21,7 @@ pub const LEAP_RATIO: f64 = 10.0;
 /// Memory: 4 bytes per step. Invariants: `steps[0] == 0`, steps ascend strictly, simplex counts never rise.
 ///
 /// ```
-/// use nephrite::history::{History, Levels, NEVER};
+/// use nephrite::{History, Levels, NEVER};
 /// let history = History {
 ///     simplices: vec![[0, 1, 2], [0, 2, 3], [0, 1, 3]],
 ///     birth: vec![0, 0, 1],
@@ -34,7 +34,7 @@ pub const LEAP_RATIO: f64 = 10.0;
 /// let levels = Levels::choose(&history, None)?;
 /// assert_eq!(levels.steps(), [0, 1]);
 /// assert_eq!(levels.simplex_counts(), [2, 1]);
-/// # Ok::<(), nephrite::history::HistoryError>(())
+/// # Ok::<(), nephrite::HistoryError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Levels {
@@ -49,7 +49,7 @@ impl Levels {
     ///
     /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the others,
     /// unless the history states deviations as well; the last step of the history is kept, and without a limit every step before a
-    /// [leap](LEAP_RATIO). `limit` is the largest number of
+    /// leap of more than 10 times the error. `limit` is the largest number of
     /// levels; 1 (or 0) keeps the input only, and a large one keeps every step that removes a simplex. Cost: one pass over
     /// simplices and steps.
     ///

@@ -12,7 +12,7 @@ mod levels;
 mod recorder;
 
 pub use check::HistoryError;
-pub use levels::{LEAP_RATIO, LEVEL_RATIO, Levels};
+pub use levels::Levels;
 pub use recorder::Recorder;
 
 /// Death of a simplex that is still alive when the decimator ends.

@@ -21,7 +21,7 @@ mod used;
 pub use curve::along_a_curve;
 pub use filling::Filling;
 pub use hole::{Hole, MAX_VALENCE, NoHole};
-pub use limits::{MAX_PLACES, MAX_SIMPLICES, MAX_VERTICES, TooMany, check_counts, check_places};
+pub use limits::{TooMany, check_counts, check_places};
 pub use numbering::Numbering;
 pub use renumbering::Renumbering;
 pub use repair::{RepairReport, Repaired, repair};

@@ -35,8 +35,8 @@ pub const STREAM_HEADER_BYTES: usize = StreamHeader::BYTES;
 /// full mesh.
 ///
 /// ```
-/// use nephrite::decimate::progressive::ProgressiveOptions;
-/// use nephrite::progressive_mesh::ProgressiveMesh;
+/// use nephrite::ProgressiveOptions;
+/// use nephrite::ProgressiveMesh;
 /// use nephrite::{BuildOptions, build, generate};
 /// let build = build(&generate::torus(16, 8), &BuildOptions::with(ProgressiveOptions::default()))?;
 /// let encoded = build.operations()?;

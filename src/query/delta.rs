@@ -23,7 +23,7 @@ use crate::tree::Difference;
 /// for run in delta.entering() {
 ///     lod.indices()[run.index_range(3)].chunks(3).for_each(&mut add);
 /// }
-/// # Ok::<(), nephrite::store::OpenError>(())
+/// # Ok::<(), nephrite::OpenError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Delta<'a> {

@@ -13,8 +13,8 @@ impl Lod {
     ///
     /// ```no_run
     /// # let lod = nephrite::Lod::open("part.neph")?;
-    /// let natural: Vec<u32> = lod.inflections(nephrite::query::INFLECTION_RATIO).collect();
-    /// # Ok::<(), nephrite::store::OpenError>(())
+    /// let natural: Vec<u32> = lod.inflections(nephrite::INFLECTION_RATIO).collect();
+    /// # Ok::<(), nephrite::OpenError>(())
     /// ```
     pub fn inflections(&self, ratio: f64) -> impl Iterator<Item = u32> + '_ {
         let leaps = move |pair: &[f64]| pair[1] > ratio * pair[0];

@@ -17,7 +17,7 @@ use std::path::Path;
 /// for run in cut.runs() {
 ///     draw_indexed(run.index_range(3));
 /// }
-/// # Ok::<(), nephrite::store::OpenError>(())
+/// # Ok::<(), nephrite::OpenError>(())
 /// ```
 #[derive(Debug)]
 pub struct Lod {
@@ -51,13 +51,36 @@ impl Lod {
         Opened::open(path).map(Self::from)
     }
 
-    /// Takes a copy of the bytes of a file.
+    /// Takes a copy of the bytes of a file. [`from_owner`](Self::from_owner) takes none.
     ///
     /// # Errors
     ///
     /// [`OpenError::Format`] when the head is not in order, [`OpenError::OutOfMemory`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, OpenError> {
         Opened::from_bytes(bytes).map(Self::from)
+    }
+
+    /// Opens a file where it lies in memory: in a vector, behind an `Arc`, in a map of somebody else's, or in what a caller from
+    /// another language gives access to. The bytes must begin at a multiple of 8; a copy is made if they do not. They must stay
+    /// the same as long as the result lives: answers are wrong otherwise, though never out of range.
+    ///
+    /// # Errors
+    ///
+    /// As [`from_bytes`](Self::from_bytes).
+    ///
+    /// ```
+    /// use nephrite::{BuildOptions, Lod, StoreOptions, build, generate};
+    /// use std::io::Cursor;
+    /// use std::sync::Arc;
+    /// let mut file = Cursor::new(Vec::new());
+    /// build(generate::torus(16, 8), &BuildOptions::default())?.write_to(&mut file, &StoreOptions::default())?;
+    /// let bytes: Arc<[u8]> = file.into_inner().into();
+    /// let viewers = [Lod::from_owner(Arc::clone(&bytes))?, Lod::from_owner(bytes)?];
+    /// assert_eq!(viewers[0].errors(), viewers[1].errors());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_owner(owner: impl AsRef<[u8]> + Send + Sync + 'static) -> Result<Self, OpenError> {
+        Opened::from_owner(owner).map(Self::from)
     }
 
     /// The coarsest level whose error is at most `error` (mesh units): the last one, for errors never fall. Level 0 where
@@ -209,8 +232,13 @@ impl Lod {
         self.file.verify()
     }
 
+    /// The operations of a progressive build, for [`ProgressiveMesh`](crate::ProgressiveMesh); empty if the file has none.
+    pub fn operations(&self) -> &[u8] {
+        self.file.operations()
+    }
+
     /// The opened file behind this.
-    pub fn file(&self) -> &Opened {
+    pub(crate) fn file(&self) -> &Opened {
         &self.file
     }
 

@@ -13,7 +13,7 @@ const SLACK: f64 = 0.2;
 /// until the distance has grown by a quarter. A picker is two words long and freely copied.
 ///
 /// ```no_run
-/// # use nephrite::query::{Picker, Projection, View};
+/// # use nephrite::{Picker, Projection, View};
 /// # let lod = nephrite::Lod::open("bunny.neph")?;
 /// # let distances = [2.0, 2.01, 2.0];
 /// let (_, radius) = lod.bounding_sphere();
@@ -24,7 +24,7 @@ const SLACK: f64 = 0.2;
 ///     let cut = picker.pick(&lod, &view);
 ///     assert!(view.error_px(cut.error()) <= 1.0);
 /// }
-/// # Ok::<(), nephrite::store::OpenError>(())
+/// # Ok::<(), nephrite::OpenError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Picker {

@@ -8,7 +8,7 @@ use std::fmt;
 /// keys use it.
 ///
 /// ```
-/// use nephrite::query::Simplex;
+/// use nephrite::Simplex;
 ///
 /// assert_eq!(Simplex::Tetrahedron.n_corners(), 4);
 /// assert_eq!(format!("1,234 {}", Simplex::Triangle), "1,234 triangles");

@@ -30,7 +30,7 @@ pub enum Projection {
 /// because nothing is visible. A negative or NaN limit on the error gives the finest level.
 ///
 /// ```
-/// use nephrite::query::{Projection, View};
+/// use nephrite::{Projection, View};
 /// let projection = Projection::Perspective { fov_y: 90f64.to_radians(), near: 0.1 };
 /// let (height_px, distance, radius, max_error_px) = (1000.0, 11.0, 1.0, 1.0);
 /// let view = View { projection, height_px, distance, radius, max_error_px };

@@ -36,7 +36,7 @@ impl Opened {
         // `Mmap::map` asks for. The map is private to `Memory` and is only ever read.
         let map = unsafe { memmap2::Mmap::map(&file) };
         let map = map.map_err(|source| OpenError::Io { action: "map", path: path.to_owned(), source })?;
-        Self::new(Memory::Mapped(map))
+        Self::new(Memory::shared(map)?)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The bytes of a file: owned and aligned, or mapped.
+//! The bytes of a file: owned and aligned, or where somebody else has them.
 
 use super::OpenError;
 use bytemuck::{Pod, Zeroable};
@@ -12,19 +12,32 @@ use std::path::Path;
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Block([u8; 64]);
 
-/// The bytes of an opened file, aligned to 64 bytes.
+/// Where records begin at least: none has a field of more than 8 bytes.
+const RECORD_ALIGNMENT: usize = 8;
+
+/// The bytes of an opened file, aligned for its records.
 pub(super) enum Memory {
     /// Read into memory.
     Owned(OwnedBytes),
-    /// Mapped by [`map`](super::map).
-    Mapped(memmap2::Mmap),
+    /// Held by somebody else: a map, or what the caller has.
+    Shared(Box<dyn AsRef<[u8]> + Send + Sync>),
 }
 
 impl Memory {
+    /// The bytes where they are, or a copy if records would not be aligned there.
+    pub(super) fn shared(owner: impl AsRef<[u8]> + Send + Sync + 'static) -> Result<Self, OpenError> {
+        let bytes = owner.as_ref();
+        if bytes.as_ptr().addr().is_multiple_of(RECORD_ALIGNMENT) {
+            Ok(Self::Shared(Box::new(owner)))
+        } else {
+            OwnedBytes::copy_of(bytes).map(Self::Owned)
+        }
+    }
+
     pub(super) fn bytes(&self) -> &[u8] {
         match self {
             Self::Owned(owned) => owned.bytes(),
-            Self::Mapped(map) => map,
+            Self::Shared(owner) => (**owner).as_ref(),
         }
     }
 }
@@ -85,4 +98,31 @@ pub(super) fn open_regular(path: &Path) -> Result<File, OpenError> {
         return Err(OpenError::NotAFile { path: path.to_owned() });
     }
     File::open(path).map_err(failed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    /// Bytes from a place on.
+    struct From(Arc<Vec<u64>>, usize);
+
+    impl AsRef<[u8]> for From {
+        fn as_ref(&self) -> &[u8] {
+            &bytemuck::cast_slice(&self.0)[self.1..]
+        }
+    }
+
+    #[test]
+    fn bytes_are_copied_only_if_records_would_not_be_aligned() {
+        let words = Arc::new(vec![7_u64; 9]);
+        let whole: &[u8] = bytemuck::cast_slice(&words);
+        for start in 0..=16 {
+            let memory = Memory::shared(From(Arc::clone(&words), start)).unwrap();
+            assert_eq!(memory.bytes(), &whole[start..]);
+            let is_there = memory.bytes().as_ptr() == whole[start..].as_ptr();
+            assert_eq!(is_there, start % 8 == 0, "from {start}");
+        }
+    }
 }

@@ -31,7 +31,7 @@ pub struct AttributeView<'a> {
     pub scalar: ScalarType,
     /// Components per vertex, at least 1.
     pub n_components: u32,
-    /// Little-endian values, aligned to 64 bytes; `n_vertices * stride_bytes()` bytes.
+    /// Little-endian values, `n_vertices * stride_bytes()` bytes. They begin at a multiple of 64 in the file.
     pub bytes: &'a [u8],
 }
 
@@ -59,6 +59,15 @@ impl Opened {
     /// [`OpenError::Format`] when the head is not in order, [`OpenError::OutOfMemory`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, OpenError> {
         Self::new(Memory::Owned(OwnedBytes::copy_of(bytes)?))
+    }
+
+    /// Checks the head of a file that lies in memory, and copies the file only if its records would not be aligned.
+    ///
+    /// # Errors
+    ///
+    /// As [`from_bytes`](Self::from_bytes).
+    pub fn from_owner(owner: impl AsRef<[u8]> + Send + Sync + 'static) -> Result<Self, OpenError> {
+        Self::new(Memory::shared(owner)?)
     }
 
     /// Touches the first 16 KiB and the attribute table, and the slots where they are in the compact form.

@@ -51,8 +51,8 @@ impl<const CORNERS: usize> History<CORNERS> {
     /// [`WriteError`]; `path` is as it was.
     ///
     /// ```
-    /// use nephrite::history::{History, NEVER};
-    /// use nephrite::store::StoreOptions;
+    /// use nephrite::{History, NEVER};
+    /// use nephrite::StoreOptions;
     /// let mesh = nephrite::TriangleMesh {
     ///     positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
     ///     ..Default::default()

@@ -20,7 +20,7 @@ use std::io::{Seek, Write};
 /// What a file is to keep of a history.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StoreOptions {
-    /// Most levels; `None` for as many as [`LEVEL_RATIO`](crate::history::LEVEL_RATIO) gives.
+    /// Most levels; `None` for as many as make each level about 63/64 of the one before.
     pub levels: Option<u32>,
     /// Levels per window, rounded up to a power of two: lifetimes are cut at the borders of windows, so that fewer vertices
     /// are transformed when a level is drawn as runs. With the usual levels some 1.1 per triangle for 16 instead of 1.8, and

@@ -36,7 +36,7 @@ pub enum TreeError {
 /// Memory: 4 bytes per slot and 4 bytes per height and level.
 ///
 /// ```
-/// use nephrite::tree::{Layout, Lifetime, Run, Tree};
+/// use nephrite::{Layout, Lifetime, Run, Tree};
 /// // Three simplices over four levels: one alive throughout, one at level 0, one from level 1 on.
 /// let lifetimes = [(0, 4), (0, 1), (1, 4)];
 /// let layout = Layout::build(4, 3, |id| {
@@ -47,7 +47,7 @@ pub enum TreeError {
 /// let tree = Tree::new(&offsets, &runs, layout.slots().len() as u32);
 /// let alive = tree.stab(1).flat_map(|run| &layout.slots()[run.range()]);
 /// assert!(alive.eq(&[0, 2]));
-/// # Ok::<(), nephrite::tree::TreeError>(())
+/// # Ok::<(), nephrite::TreeError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -130,11 +130,6 @@ impl Layout {
         let stretches: Vec<_> =
             self.groups_mut().into_iter().flat_map(|ids| ids.chunks_mut(max_len)).collect();
         stretches.into_par_iter().for_each_init(init, order);
-    }
-
-    /// Levels the tree is over.
-    pub fn n_levels(&self) -> u32 {
-        self.n_levels
     }
 
     /// Lifetimes laid out.

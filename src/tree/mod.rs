@@ -61,7 +61,7 @@ impl Lifetime {
     /// `None` if no level lies in `[birth, death)`.
     ///
     /// ```
-    /// use nephrite::tree::Lifetime;
+    /// use nephrite::Lifetime;
     /// assert!(Lifetime::new(3, 3).is_none());
     /// assert!(Lifetime::new(3, 5).is_some_and(|life| life.contains(4) && !life.contains(5)));
     /// ```

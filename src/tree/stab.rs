@@ -17,7 +17,7 @@ impl Run {
     /// The slots.
     ///
     /// ```
-    /// assert_eq!(nephrite::tree::Run { start: 4, len: 2 }.range(), 4..6);
+    /// assert_eq!(nephrite::Run { start: 4, len: 2 }.range(), 4..6);
     /// ```
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.start as usize + self.len as usize

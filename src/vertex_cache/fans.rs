@@ -33,7 +33,7 @@ impl FanOrder {
     /// `None` if a vertex is out of range or the corners do not fit in 32 bits.
     ///
     /// ```
-    /// use nephrite::vertex_cache::FanOrder;
+    /// use nephrite::FanOrder;
     /// let triangles = [[0, 1, 2], [5, 6, 7], [0, 2, 3], [5, 7, 8]];
     /// assert_eq!(FanOrder::new(9).order(&triangles), Some(vec![0, 2, 1, 3]));
     /// assert_eq!(FanOrder::new(8).order(&triangles), None);

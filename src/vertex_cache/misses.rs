@@ -9,7 +9,7 @@ pub const CACHE_LEN: u32 = 16;
 /// Memory: 8 bytes per vertex up to the largest one.
 ///
 /// ```
-/// use nephrite::vertex_cache::miss_ratio;
+/// use nephrite::miss_ratio;
 /// let strip = [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]];
 /// assert_eq!(miss_ratio(strip, 16), 6.0 / 4.0);
 /// ```

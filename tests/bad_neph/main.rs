@@ -21,7 +21,7 @@ mod trees;
 mod valid;
 
 use corpus::{Cases, Corpus, variant, variants};
-use nephrite::store::{OpenError, VerifyError};
+use nephrite::{OpenError, VerifyError};
 use std::collections::BTreeSet;
 use support::damage::{Outcome, open_and_use};
 

@@ -5,7 +5,7 @@ use super::support::damage::reseal;
 use super::support::file_bytes_with;
 use super::support::synthetic::{decimate, grid};
 use super::valid::Valid;
-use nephrite::store::StoreOptions;
+use nephrite::StoreOptions;
 use nephrite_formats::neph::{CHUNK_BYTES, HEADER_BYTES, SectionKind, plan};
 
 pub(crate) fn cases() -> Cases {
@@ -87,7 +87,8 @@ fn one_run_more() -> Vec<u8> {
         .collect();
     let (start, len) = valid.seal.section(SectionKind::RunOffsets);
     let mut offsets: Vec<u64> = bytemuck::pod_collect_to_vec(&valid.bytes[start..start + len]);
-    let n_heights = nephrite::tree::n_heights(offsets.len() as u32 - 1);
+    let n_levels = offsets.len() as u32 - 1;
+    let n_heights = u32::BITS - (n_levels - 1).leading_zeros() + 1;
     let level = offsets.windows(2).position(|pair| pair[1] - pair[0] < u64::from(n_heights)).unwrap();
     let place = 8 * offsets[level + 1] as usize;
     offsets[level + 1..].iter_mut().for_each(|offset| *offset += 1);

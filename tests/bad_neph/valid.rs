@@ -4,8 +4,7 @@ use super::support::damage::{Seal, edit_header};
 use super::support::file_bytes_with;
 use super::support::synthetic::{decimate, grid, succeed};
 use bytemuck::Pod;
-use nephrite::history::Deviation;
-use nephrite::store::StoreOptions;
+use nephrite::{Deviation, StoreOptions};
 use nephrite_formats::neph::{HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind, SectionRecord};
 
 /// A valid file and the places of its sections.

@@ -4,9 +4,12 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small meshes")]
 
-use nephrite::geometry::vector::{Vector, add, distance_sq, dot, scale, sub};
 use nephrite::{Build, BuildOptions, EstimateKind, History, JadeOptions, TriangleMesh, Vertices, build};
+use space::{Vector, add_scaled, point_triangle_distance_sq, sub};
 use std::collections::{BTreeMap, BTreeSet};
+
+#[path = "../support/space.rs"]
+pub(crate) mod space;
 
 /// Builds without watching.
 pub(crate) fn build_all(mesh: &TriangleMesh, options: &BuildOptions) -> Build {
@@ -77,25 +80,6 @@ pub(crate) fn corners_of(vertices: Vertices<'_>, triangles: &[[u32; 3]]) -> Vec<
     triangles.iter().map(|t| t.map(point)).collect()
 }
 
-/// Distance of `p` to a triangle by minimising over it: along each edge, and inside by the normal
-/// equations.
-fn distance_to(p: Vector, [a, b, c]: [Vector; 3]) -> f64 {
-    let on_edge = |a: Vector, b: Vector| {
-        let (ab, ap) = (sub(b, a), sub(p, a));
-        let s = if dot(ab, ab) > 0.0 { (dot(ab, ap) / dot(ab, ab)).clamp(0.0, 1.0) } else { 0.0 };
-        distance_sq(p, add(a, scale(ab, s)))
-    };
-    let mut best = on_edge(a, b).min(on_edge(b, c)).min(on_edge(c, a));
-    let (u, v, w) = (sub(b, a), sub(c, a), sub(p, a));
-    let (uu, uv, vv, wu, wv) = (dot(u, u), dot(u, v), dot(v, v), dot(w, u), dot(w, v));
-    let determinant = uu * vv - uv * uv;
-    let (s, t) = ((vv * wu - uv * wv) / determinant, (uu * wv - uv * wu) / determinant);
-    if s > 0.0 && t > 0.0 && s + t < 1.0 {
-        best = best.min(distance_sq(p, add(a, add(scale(u, s), scale(v, t)))));
-    }
-    best.sqrt()
-}
-
 /// Largest distance from samples on every triangle of `from` to the surface `to`.
 pub(crate) fn one_sided(from: &[[Vector; 3]], to: &[[Vector; 3]], per_side: u32) -> f64 {
     let mut largest = 0.0_f64;
@@ -103,8 +87,9 @@ pub(crate) fn one_sided(from: &[[Vector; 3]], to: &[[Vector; 3]], per_side: u32)
         for i in 0..=per_side {
             for j in 0..=per_side - i {
                 let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(per_side));
-                let p = add(a, add(scale(sub(b, a), s), scale(sub(c, a), t)));
-                largest = largest.max(to.iter().map(|&t| distance_to(p, t)).fold(f64::INFINITY, f64::min));
+                let p = add_scaled(add_scaled(a, s, sub(b, a)), t, sub(c, a));
+                let squares = to.iter().map(|t| point_triangle_distance_sq(p, t));
+                largest = largest.max(squares.fold(f64::INFINITY, f64::min).sqrt());
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Agreement with dense sampling against every triangle.
 
 use nephrite::TriangleMesh;
-use nephrite::geometry::distance::point_triangle_distance_sq;
 use nephrite::measure::{MeasureOptions, Verdict, check_within, measure};
 use proptest::prelude::*;
 
 use crate::meshes::{corners, mesh};
+use crate::space::point_triangle_distance_sq;
 
 /// Largest distance of lattice points of one mesh from another. No point of the mesh is farther
 /// than that by more than the second number.

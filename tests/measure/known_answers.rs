@@ -1,7 +1,7 @@
 //! Distances with a closed form.
 
+use crate::space::{cross, dot, length, sub};
 use nephrite::TriangleMesh;
-use nephrite::geometry::vector::{cross, dot, length, sub};
 use nephrite::measure::{Distance, MeasureOptions, Verdict, check_within, measure, vertex_distances};
 
 use crate::meshes::{corners, grid, mesh, scaled, sphere};

@@ -6,4 +6,6 @@ mod bad_input;
 mod brute_force;
 mod known_answers;
 mod meshes;
+#[path = "../support/space.rs"]
+mod space;
 mod threads;

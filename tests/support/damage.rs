@@ -1,8 +1,6 @@
 //! Using a file that may be damaged, and correcting its checksums after an edit.
 
-use nephrite::Lod;
-use nephrite::query::QueryError;
-use nephrite::store::{OpenError, VerifyError};
+use nephrite::{Lod, OpenError, QueryError, VerifyError};
 use nephrite_formats::neph::{
     self, Directory, HEADER_BYTES, Header, SECTION_RECORD_BYTES, SectionKind, SectionRecord,
 };

@@ -7,6 +7,7 @@
 pub mod damage;
 pub mod faulty;
 pub mod served;
+pub mod space;
 pub mod synthetic;
 
 use nephrite::{History, Levels, Lod, StoreOptions, TriangleMesh};

@@ -2,8 +2,7 @@
 //! bumpy grid are removed in random order, and each hole is filled by a fan from one of its
 //! corners. It is a decimation combinatorially; geometry plays no part.
 
-use nephrite::history::{History, NEVER};
-use nephrite::{Attribute, ScalarType, TriangleMesh};
+use nephrite::{Attribute, History, NEVER, ScalarType, TriangleMesh};
 
 /// SplitMix64 (G. Steele, D. Lea, C. Flood: "Fast splittable pseudorandom number generators",
 /// OOPSLA 2014).

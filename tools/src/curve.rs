@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use nephrite::query::INFLECTION_RATIO;
+use nephrite::INFLECTION_RATIO;
 
 use crate::figures;
 

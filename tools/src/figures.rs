@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use nephrite::query::{CurvePoint, Simplex};
+use nephrite::{CurvePoint, Simplex};
 use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 

@@ -4,8 +4,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
-use nephrite::Lod;
-use nephrite::store::OpenError;
+use nephrite::{Lod, OpenError};
 use nephrite_formats::neph::{Directory, MAGIC, MAX_HEAD_BYTES};
 
 use crate::failure::Failure;

@@ -3,8 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use nephrite::query::Simplex;
-use nephrite::{TetrahedronMesh, TriangleMesh};
+use nephrite::{Simplex, TetrahedronMesh, TriangleMesh};
 use nephrite_formats::neph::MAGIC;
 use nephrite_formats::{FileFormat, FileReport, MeshError, MeshFormat, VolumeFormat};
 

@@ -1,9 +1,7 @@
 //! The names of decimators, bounds and placements, as they are typed.
 
 use clap::ValueEnum;
-use nephrite::bound::estimate::EstimateKind;
-use nephrite::decimate::jade::Placement;
-use nephrite::decimate::progressive::ProgressiveBound;
+use nephrite::{EstimateKind, Placement, ProgressiveBound};
 
 /// The decimators, as they are typed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -6,7 +6,7 @@
 //! a limit, evenly spread ones above it.
 
 use clap::Parser;
-use nephrite::progressive_mesh::{ProgressiveMesh, encode};
+use nephrite::{ProgressiveMesh, encode};
 use nephrite_compare::{decimate_progressively, load};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

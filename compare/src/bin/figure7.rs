@@ -6,10 +6,8 @@
 //! before nothing are listed too.
 
 use clap::Parser;
-use nephrite::decimate::progressive::Passage;
+use nephrite::{Build, NEVER, Passage, TriangleMesh};
 use nephrite::generate::{Drilling, drilled_plate, heat_exchanger, shell};
-use nephrite::history::NEVER;
-use nephrite::{Build, TriangleMesh};
 use nephrite_compare::{CompareError, Table, decimate_progressively};
 use std::process::ExitCode;
 use std::time::Instant;

@@ -7,8 +7,7 @@
 //! buffer.
 
 use clap::Parser;
-use nephrite::store::{Provenance, StoreOptions, write_to};
-use nephrite::{BuildOptions, Lod};
+use nephrite::{BuildOptions, Lod, Provenance, StoreOptions, write_to};
 use nephrite_compare::chain::{CHAIN_END, chain_of_halvings};
 use nephrite_compare::{CompareError, Table, load};
 use std::io::Cursor;

@@ -6,7 +6,7 @@
 //! lifetimes take some 1.5 GB of memory and half a minute.
 
 use clap::Parser;
-use nephrite::tree::{Layout, Tree, TreeError};
+use nephrite::{Layout, Tree, TreeError};
 use nephrite_compare::Table;
 use nephrite_compare::lifetimes::{SyntheticLifetimes, even};
 use nephrite_compare::statistics::percentile;

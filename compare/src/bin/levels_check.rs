@@ -7,9 +7,8 @@
 //! `metro_check.py` does it with PyMeshLab's Metro.
 
 use clap::Parser;
-use nephrite::decimate::jade::{JadeOptions, Placement};
+use nephrite::{BuildOptions, JadeOptions, Placement, TriangleMesh};
 use nephrite::measure::{MeasureOptions, measure};
-use nephrite::{BuildOptions, TriangleMesh};
 use nephrite_compare::statistics::{median, percentile};
 use nephrite_compare::{CompareError, KeptLevels, Table, build_lod, load, spread_levels};
 use serde_json::{Value, json};

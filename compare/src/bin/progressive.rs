@@ -6,9 +6,7 @@
 //! repair, decimation and the record of the whole history.
 
 use clap::Parser;
-use nephrite::decimate::progressive::Passage;
-use nephrite::progressive_mesh::{ProgressiveMesh, StreamError, encode};
-use nephrite::{Build, TriangleMesh};
+use nephrite::{Build, Passage, ProgressiveMesh, StreamError, TriangleMesh, encode};
 use nephrite_compare::statistics::median;
 use nephrite_compare::{Table, decimate_progressively, load};
 use std::hint::black_box;

@@ -7,9 +7,8 @@
 //! Markdown.
 
 use clap::Parser;
-use nephrite::decimate::jade::{JadeOptions, Placement};
+use nephrite::{Bound, BuildOptions, Cut, JadeOptions, Placement, TriangleMesh, generate};
 use nephrite::measure::{Distance, MeasureOptions, measure};
-use nephrite::{Bound, BuildOptions, Cut, TriangleMesh, generate};
 use nephrite_compare::anchors::{AT_ERROR, AT_TRIANGLES, AtError, AtTriangles, Simplified, Subject};
 use nephrite_compare::statistics::geometric_mean;
 use nephrite_compare::{Build, CompareError, KeptLevels, Table, build_lod, load};

@@ -8,8 +8,7 @@
 //! like the paper.
 
 use clap::Parser;
-use nephrite::decimate::fusion::FusionOptions;
-use nephrite::{TetrahedronMesh, VolumeBuild, VolumeOptions, build_volume};
+use nephrite::{FusionOptions, TetrahedronMesh, VolumeBuild, VolumeOptions, build_volume};
 use nephrite_compare::boundary_walk::{BoundaryWalk, events};
 use nephrite_compare::{CompareError, Table};
 use std::ops::ControlFlow::Continue;

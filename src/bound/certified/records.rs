@@ -49,7 +49,7 @@ impl Records {
     }
 
     /// Words of the pool, gaps and headers included: at most
-    /// [`MAX_PLACES`](crate::mesh::MAX_PLACES), which writers check.
+    /// `MAX_PLACES`, which writers check.
     #[inline]
     pub(super) fn n_words(&self) -> usize {
         self.words.len()

@@ -1,5 +1,7 @@
 //! Removals that go together: planned in parallel on the same mesh, and carried out at once.
 
+#![expect(clippy::vec_box, reason = "a plan is large, and moves from list to list")]
+
 use super::candidate::Refusal;
 use super::removal::{Plan, plan};
 use super::state::State;

@@ -33,5 +33,5 @@ pub mod triangulate;
 pub mod validity;
 pub mod worklists;
 
-pub use options::{JadeBound, JadeOptions, MAX_K, MIN_C1, Placement};
+pub use options::{JadeBound, JadeOptions, Placement};
 pub(crate) use run::run;

@@ -2,12 +2,6 @@
 
 use crate::bound::estimate::EstimateKind;
 
-/// Largest [`JadeOptions::k`], and least [`JadeOptions::c1`]: limits far below what coordinates can
-/// tell apart, or steps of next to nothing, would make iterations without number.
-pub const MAX_K: f64 = 1e12;
-/// See [`MAX_K`].
-pub const MIN_C1: f64 = 1.001;
-
 /// Where the vertices of a level may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Placement {
@@ -41,7 +35,7 @@ pub enum JadeBound {
 /// Fields may be added: write `..JadeOptions::default()` behind those you set.
 ///
 /// ```
-/// use nephrite::decimate::jade::{JadeBound, JadeOptions, Placement};
+/// use nephrite::{JadeBound, JadeOptions, Placement};
 /// let best = JadeOptions { c2: 1.1, ..JadeOptions::certified(Placement::Best) };
 /// assert_eq!(best.bound, JadeBound::Certified(Placement::Best));
 /// ```
@@ -50,9 +44,9 @@ pub struct JadeOptions {
     /// What the errors mean.
     pub bound: JadeBound,
     /// The first limit on the local error is the largest one divided by this (section 5). From 1 to
-    /// [`MAX_K`]; `None` for 256, or for 240.5 where vertices move.
+    /// [`MAX_K`](Self::MAX_K); `None` for 256, or for 240.5 where vertices move.
     pub k: Option<f64>,
-    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`] to 16; `None` for
+    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`](Self::MIN_C1) to 16; `None` for
     /// 1.3, or for the tenth root of 10 where vertices move.
     pub c1: Option<f64>,
     /// Limit on the global error as a multiple of that on the local error (section 5). From 1 to
@@ -61,6 +55,13 @@ pub struct JadeOptions {
 }
 
 impl JadeOptions {
+    /// Largest [`k`](Self::k). Larger ones would start at limits far below what coordinates can tell apart, and need iterations
+    /// without number.
+    pub const MAX_K: f64 = 1e12;
+
+    /// Smallest [`c1`](Self::c1). Smaller ones would raise the limits by next to nothing.
+    pub const MIN_C1: f64 = 1.001;
+
     /// A proof, with vertices placed like this.
     pub fn certified(placement: Placement) -> Self {
         Self { bound: JadeBound::Certified(placement), k: None, c1: None, c2: 1.2 }

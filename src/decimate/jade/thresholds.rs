@@ -78,7 +78,6 @@ impl Thresholds {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{MAX_K, MIN_C1};
     use super::*;
 
     fn all(max_error: Option<f64>, diagonal: f64) -> Vec<Limits> {
@@ -125,7 +124,11 @@ mod tests {
 
     #[test]
     fn the_finest_steps_from_the_least_start_come_to_an_end() {
-        let options = JadeOptions { k: Some(MAX_K), c1: Some(MIN_C1), ..JadeOptions::default() };
+        let options = JadeOptions {
+            k: Some(JadeOptions::MAX_K),
+            c1: Some(JadeOptions::MIN_C1),
+            ..JadeOptions::default()
+        };
         for (max_error, diagonal) in [(None, 0.0), (Some(f64::MAX), 1.0), (Some(1e-300), 1.0)] {
             let mut thresholds = Thresholds::new(max_error, diagonal, &options);
             let needed = max_error.unwrap_or(f64::MAX);

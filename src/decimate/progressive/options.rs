@@ -16,7 +16,7 @@ pub enum ProgressiveBound {
 /// Fields may be added: write `..ProgressiveOptions::default()` behind those you set.
 ///
 /// ```
-/// use nephrite::decimate::progressive::ProgressiveOptions;
+/// use nephrite::ProgressiveOptions;
 /// let half = ProgressiveOptions { reduction: Some(0.5), ..ProgressiveOptions::default() };
 /// assert!(!half.pre_split);
 /// ```

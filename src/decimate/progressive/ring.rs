@@ -76,11 +76,6 @@ impl Ring {
         self.slots.len()
     }
 
-    /// Whether there is no triangle.
-    pub fn is_empty(&self) -> bool {
-        self.slots.is_empty()
-    }
-
     /// Whether the triangles surround the vertex.
     #[inline]
     pub fn is_cycle(&self) -> bool {

@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use nephrite::history::History;
-use nephrite::store::StoreOptions;
-use nephrite::{Build, BuildOptions, Cut, Lod, generate};
+use nephrite::{Build, BuildOptions, Cut, History, Lod, StoreOptions, generate};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;

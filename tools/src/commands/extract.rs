@@ -3,9 +3,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use nephrite::query::{INFLECTION_RATIO, QueryError, Simplex};
-use nephrite::volume::Plane;
-use nephrite::{Cut, Lod};
+use nephrite::{Cut, INFLECTION_RATIO, Lod, Plane, QueryError, Simplex};
 use nephrite_formats::FileFormat;
 use serde_json::{Value, json};
 

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Subcommand, value_parser};
+use nephrite::Simplex;
 use nephrite::generate::{self, Drilling};
-use nephrite::query::Simplex;
 use nephrite_formats::FileFormat;
 use serde_json::json;
 

@@ -1,9 +1,7 @@
 //! `nephrite info`: the contents of a file, and its curve of error against simplices.
 
 use clap::Args;
-use nephrite::Lod;
-use nephrite::query::INFLECTION_RATIO;
-use nephrite::store::Metadata;
+use nephrite::{INFLECTION_RATIO, Lod, Metadata};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;

@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use nephrite::measure::{self, Distance, FieldDistance, Histogram, MeasureOptions, OneSided};
-use nephrite::query::Simplex;
-use nephrite::{Attribute, ScalarType, TriangleMesh};
+use nephrite::{Attribute, ScalarType, Simplex, TriangleMesh};
 use nephrite_formats::{FileFormat, MeshError, MeshFormat};
 use serde_json::{Value, json};
 

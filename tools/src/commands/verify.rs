@@ -4,8 +4,7 @@ use std::num::NonZeroU32;
 use std::time::Instant;
 
 use clap::Args;
-use nephrite::query::Lod;
-use nephrite::reprove::{ErrorTable, ReproveError};
+use nephrite::{ErrorTable, Lod, ReproveError};
 use serde_json::json;
 
 use crate::failure::Failure;

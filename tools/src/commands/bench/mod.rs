@@ -7,9 +7,7 @@ use std::io;
 use std::path::Path;
 
 use clap::Args;
-use nephrite::Lod;
-use nephrite::query::{QueryError, Simplex};
-use nephrite::vertex_cache::{CACHE_LEN, miss_ratio};
+use nephrite::{CACHE_LEN, Lod, QueryError, Simplex, miss_ratio};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;

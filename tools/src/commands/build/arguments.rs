@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use nephrite::store::StoreOptions;
 use nephrite::{
-    BuildOptions, Decimator, FusionOptions, JadeBound, JadeOptions, MAX_K, MIN_C1, ProgressiveOptions,
+    BuildOptions, Decimator, FusionOptions, JadeBound, JadeOptions, ProgressiveOptions, StoreOptions,
     VolumeOptions,
 };
 use nephrite_formats::FileFormat;
@@ -167,11 +166,11 @@ fn angle(text: &str) -> Result<f64, &'static str> {
 }
 
 fn jade_k(text: &str) -> Result<f64, &'static str> {
-    number(text, "expected a number from 1 to 1e12", |value| (1.0..=MAX_K).contains(&value))
+    number(text, "expected a number from 1 to 1e12", |value| (1.0..=JadeOptions::MAX_K).contains(&value))
 }
 
 fn jade_c1(text: &str) -> Result<f64, &'static str> {
-    number(text, "expected a number from 1.001 to 16", |value| (MIN_C1..=16.0).contains(&value))
+    number(text, "expected a number from 1.001 to 16", |value| (JadeOptions::MIN_C1..=16.0).contains(&value))
 }
 
 fn from_one_to_sixteen(text: &str) -> Result<f64, &'static str> {

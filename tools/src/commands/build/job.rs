@@ -2,8 +2,7 @@
 
 use std::io::{Cursor, Write};
 
-use nephrite::store::{StoreReport, WriteError};
-use nephrite::{Build, VolumeBuild};
+use nephrite::{Build, StoreReport, VolumeBuild, WriteError};
 
 use super::arguments::Arguments;
 use crate::failure::Failure;

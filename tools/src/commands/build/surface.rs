@@ -2,8 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use nephrite::store::{StoreReport, check_attributes};
-use nephrite::{Build, TriangleMesh};
+use nephrite::{Build, StoreReport, TriangleMesh, check_attributes};
 use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 

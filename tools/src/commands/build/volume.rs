@@ -3,8 +3,7 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use nephrite::store::{StoreReport, check_attributes};
-use nephrite::{TetrahedronMesh, VolumeBuild};
+use nephrite::{StoreReport, TetrahedronMesh, VolumeBuild, check_attributes};
 use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 
