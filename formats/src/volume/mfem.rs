@@ -76,7 +76,16 @@ impl<'a> Reader<'a> {
                     return Err(self.unsupported("MFEM in other than three dimensions".to_owned()));
                 }
             }
-            b"elements" | b"boundary" => self.elements(keyword == b"elements")?,
+            b"elements" => {
+                for (attribute, element) in self.elements()? {
+                    self.attributes.insert(attribute);
+                    self.elements.push(element);
+                }
+            }
+            b"boundary" => {
+                let n_solids = self.elements()?.len();
+                self.report.n_cells_ignored += n_solids;
+            }
             b"vertices" => return self.vertices(),
             b"nodes" => return self.nodes(),
             b"mfem_mesh_end" => {}
@@ -105,8 +114,10 @@ impl<'a> Reader<'a> {
         MeshError::Unsupported { place: self.scanner.place(), feature }
     }
 
-    /// A list of elements: an attribute, a type, vertices. Those of the boundary are counted.
-    fn elements(&mut self, is_inside: bool) -> Result<(), MeshError> {
+    /// Reads a list of elements: an attribute, a type, vertices. Returns the solids with their
+    /// attributes and counts all others.
+    fn elements(&mut self) -> Result<Vec<(i64, Element)>, MeshError> {
+        let mut solids = Vec::new();
         for _ in 0..count(&mut self.scanner, "elements")? {
             let attribute = integer(&mut self.scanner)?;
             let number = integer(&mut self.scanner)?;
@@ -119,14 +130,13 @@ impl<'a> Reader<'a> {
                 let in_range = u32::try_from(index).ok();
                 *corner = in_range.ok_or(MeshError::IndexOutOfRange { place, what, index, count })?;
             }
-            if !is_inside || kind == CellKind::Flat {
+            if kind == CellKind::Flat {
                 self.report.n_cells_ignored += 1;
-                continue;
+            } else {
+                solids.push((attribute, Element { kind, corners, place: self.scanner.place() }));
             }
-            self.attributes.insert(attribute);
-            self.elements.push(Element { kind, corners, place: self.scanner.place() });
         }
-        Ok(())
+        Ok(solids)
     }
 
     /// The number of vertices, and their dimension and coordinates unless the mesh is curved.

@@ -79,10 +79,10 @@ pub(super) fn read(grid: &[u8], solutions: &[&[u8]]) -> Result<(TetrahedronMesh,
     let points = Points::new(&joined(&grid, 0, 3)?, is_text);
     let n_points = points.len();
     let mut cells = Cells::default();
+    let cut = if grid.len() == 1 { Cut::ByPatterns } else { Cut::ByPlaces };
     let mut first = 0;
     for block in &grid {
-        let is_alone = grid.len() == 1;
-        add_cells(block, first, is_alone, &mut cells, &mut report)?;
+        add_cells(block, first, cut, &mut cells, &mut report)?;
         first += block.n_points();
     }
     let mut fields = Fields::default();
@@ -112,11 +112,20 @@ fn joined(blocks: &[Block], first: usize, n: usize) -> Result<Numbers, MeshError
     Ok(Numbers { number, bytes })
 }
 
+/// How hexahedra become tetrahedra.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cut {
+    /// In five, by the patterns that alternate.
+    ByPatterns,
+    /// In six, by the places of their corners.
+    ByPlaces,
+}
+
 /// Adds the cells of a block whose points are numbered from `first` on.
 fn add_cells(
     block: &Block,
     first: usize,
-    is_alone: bool,
+    cut: Cut,
     cells: &mut Cells,
     report: &mut FileReport,
 ) -> Result<(), MeshError> {
@@ -141,7 +150,7 @@ fn add_cells(
                 }
                 // A number beyond 32 bits is out of range of the points.
                 let nodes = corners.map(|corner| u32::try_from(first + corner).unwrap_or(u32::MAX));
-                if !is_alone {
+                if cut == Cut::ByPlaces {
                     cells.push(CellKind::Hexahedron, &nodes, n_points, Place::File, report)?;
                     continue;
                 }
@@ -166,6 +175,7 @@ fn are_blocks(dimensions: &[[usize; 3]], limit: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::volume::cells::tests::n_outer_faces;
 
     /// Two blocks of unit cubes, of so many points along x, that share a side.
     fn two_blocks(first: usize, second: usize) -> String {
@@ -194,18 +204,8 @@ mod tests {
             let n_cells = (first + 1) * 6;
             assert_eq!((mesh.tetrahedra.len(), report.n_solids_cut), (6 * n_cells, n_cells));
             assert!((mesh.volume() - (first as f64 + 1.0) * 6.0).abs() < 1e-9);
-            let mut faces = std::collections::BTreeMap::<Vec<[u32; 3]>, usize>::new();
-            for tetrahedron in &mesh.tetrahedra {
-                for left_out in 0..4 {
-                    let corners = (0..4).filter(|&corner| corner != left_out);
-                    let mut face: Vec<_> =
-                        corners.map(|c| mesh.positions[tetrahedron[c] as usize].map(f32::to_bits)).collect();
-                    face.sort_unstable();
-                    *faces.entry(face).or_default() += 1;
-                }
-            }
             let n_outer = 4 * 6 + 4 * (first + 1) * (3 + 2);
-            assert_eq!(faces.values().filter(|&&n| n == 1).count(), n_outer);
+            assert_eq!(n_outer_faces(&mesh.positions, &mesh.tetrahedra), n_outer);
         }
     }
 

@@ -21,9 +21,11 @@ pub(super) fn is_text(bytes: &[u8]) -> bool {
 /// [`MeshError::Unexpected`] if no reading of the dimensions explains that number.
 pub(super) fn read(bytes: &[u8], contents: Contents) -> Result<Vec<Block>, MeshError> {
     let numbers = numbers(bytes)?;
+    let alone = Some((1, numbers.as_slice()));
+    let counted = numbers.split_first().and_then(|(&first, behind)| Some((whole(first)?, behind)));
     for &(n_values, has_blanks) in contents.of_point {
-        for has_count in [false, true] {
-            let Some((dimensions, rest)) = dimensions(&numbers, has_count) else { continue };
+        for (n_blocks, behind) in [alone, counted].into_iter().flatten() {
+            let Some((dimensions, rest)) = dimensions(n_blocks, behind) else { continue };
             let per_point = n_values + usize::from(has_blanks);
             let n_points = |block: &[usize; 3]| block.iter().product::<usize>();
             let expected: usize =
@@ -75,11 +77,9 @@ fn repeated(word: &[u8]) -> Option<(usize, f64)> {
     Some((n, parse_number(&word[star + 1..])?))
 }
 
-/// The dimensions of all blocks, and the numbers behind them.
-fn dimensions(numbers: &[f64], has_count: bool) -> Option<(Vec<[usize; 3]>, &[f64])> {
-    let (n_blocks, behind) =
-        if has_count { (whole(*numbers.first()?)?, numbers.get(1..)?) } else { (1, numbers) };
-    let (head, rest) = behind.split_at_checked(n_blocks.checked_mul(3)?)?;
+/// The dimensions of so many blocks, and the numbers behind them.
+fn dimensions(n_blocks: usize, numbers: &[f64]) -> Option<(Vec<[usize; 3]>, &[f64])> {
+    let (head, rest) = numbers.split_at_checked(n_blocks.checked_mul(3)?)?;
     let whole: Option<Vec<usize>> = head.iter().map(|&number| whole(number)).collect();
     let dimensions = whole?.as_chunks::<3>().0.to_vec();
     are_blocks(&dimensions, rest.len()).then_some((dimensions, rest))
