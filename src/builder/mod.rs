@@ -174,6 +174,7 @@ fn simplify(mesh: TriangleMesh, options: &BuildOptions, observer: Observer<'_>) 
         mesh: repaired,
         max_error: max_error.map(|error| error - dropped_distance),
         cos_feature_angle: options.feature_angle_degrees.to_radians().cos(),
+        lock_boundary: options.lock_boundary,
     };
     let watch = |n_triangles, error| tell(Phase::Decimate, n_triangles, error + dropped_distance);
     let (mesh, mut history, progressive) = decimate(input, options, &watch)?;

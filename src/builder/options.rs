@@ -33,6 +33,9 @@ pub struct BuildOptions {
     pub max_error: Option<f64>,
     /// Edges at which the normals turn by more than this, in degrees, are feature edges.
     pub feature_angle_degrees: f64,
+    /// Whether the vertices on the boundary stay at every level, where they are, so that meshes that
+    /// meet there fit at any levels. No new edge joins two of them.
+    pub lock_boundary: bool,
     /// The decimator, and what its errors mean.
     pub decimator: Decimator,
 }
@@ -88,7 +91,8 @@ impl Default for VolumeOptions {
 impl BuildOptions {
     /// A decimator that simplifies as far as it goes.
     pub fn with(decimator: impl Into<Decimator>) -> Self {
-        Self { max_error: None, feature_angle_degrees: 60.0, decimator: decimator.into() }
+        let decimator = decimator.into();
+        Self { max_error: None, feature_angle_degrees: 60.0, lock_boundary: false, decimator }
     }
 
     /// The name of the decimator.
@@ -124,6 +128,7 @@ impl BuildOptions {
             "bound": self.bound(),
             "max_error": self.max_error,
             "feature_angle_degrees": self.feature_angle_degrees,
+            "lock_boundary": self.lock_boundary,
         });
         options[self.method().to_string()] = match self.decimator {
             Decimator::Jade(jade) => jade_json(&jade),

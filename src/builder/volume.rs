@@ -105,7 +105,7 @@ pub fn build_volume_with(
     }
     let cos_feature_angle = options.feature_angle_degrees.to_radians().cos();
     let watch = |n_alive, error| tell(Phase::Decimate, n_alive, error);
-    let input = Input { mesh, max_error: options.max_error, cos_feature_angle };
+    let input = Input { mesh, max_error: options.max_error, cos_feature_angle, lock_boundary: false };
     let Decimated { mesh, history, report } = fusion::run(input, &options.fusion, &watch)?;
     Ok(VolumeBuild {
         options: *options,

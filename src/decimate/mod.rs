@@ -22,6 +22,8 @@ pub(crate) struct Input<Mesh> {
     pub max_error: Option<f64>,
     /// Cosine of the angle between normals from which an edge is a feature edge.
     pub cos_feature_angle: f64,
+    /// Whether the vertices on the boundary stay where they are.
+    pub lock_boundary: bool,
 }
 
 impl<Mesh> Input<Mesh> {

@@ -1,6 +1,6 @@
 //! The mesh while it is being simplified.
 
-use super::{Filling, Hole, Renumbering, Stars};
+use super::{Filling, Hole, Locked, Renumbering, Stars};
 use crate::geometry::vector::{Vector, widen};
 
 /// Corners of a slot whose triangle is gone.
@@ -22,13 +22,32 @@ pub struct Surface {
     triangles: Vec<[u32; 3]>,
     stars: Stars,
     n_triangles: usize,
+    locked: Locked,
 }
 
 impl Surface {
     /// A surface over `positions` in which slot `t` holds `triangles[t]`.
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let stars = Stars::new(positions.len(), &triangles);
-        Self { n_triangles: triangles.len(), positions, origins: vec![], triangles, stars }
+        let locked = Locked::default();
+        Self { n_triangles: triangles.len(), positions, origins: vec![], triangles, stars, locked }
+    }
+
+    /// Locks the vertices on the boundary.
+    pub fn lock_boundary(&mut self) {
+        self.locked = Locked::boundary_of(self.n_vertices(), self.iter().map(|(_, corners)| corners));
+    }
+
+    /// Whether vertex `v` is to stay.
+    #[inline]
+    pub fn is_locked(&self, v: u32) -> bool {
+        self.locked.has(v)
+    }
+
+    /// Whether the edge `a b` may be made: the mesh does not have it yet, and not both ends are locked. O(valence of the smaller
+    /// star).
+    pub fn may_join(&self, a: u32, b: u32) -> bool {
+        !self.locked.has_both([a, b]) && self.n_faces(a, b) == 0
     }
 
     /// Vertices, alive or not.

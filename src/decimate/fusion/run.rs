@@ -166,7 +166,7 @@ mod tests {
     }
 
     fn fused(mesh: TetrahedronMesh) -> FusionReport {
-        let input = Input { mesh, max_error: None, cos_feature_angle: 0.5 };
+        let input = Input { mesh, max_error: None, cos_feature_angle: 0.5, lock_boundary: false };
         run(input, &FusionOptions::default(), &|_, _| ControlFlow::Continue(())).unwrap().report
     }
 

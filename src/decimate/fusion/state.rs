@@ -70,7 +70,7 @@ pub struct FusionReport {
 impl State {
     /// The state at step 0. O(n).
     pub(super) fn new(input: Input<TetrahedronMesh>, options: &FusionOptions) -> Self {
-        let Input { mesh, max_error, cos_feature_angle } = input;
+        let Input { mesh, max_error, cos_feature_angle, .. } = input;
         let unit = Unit::new(Bounds::around_positions(&mesh.positions).diagonal());
         let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|&p| unit.point_to_unit(p)).collect();
         let bounds = Bounds::around_positions(&positions);

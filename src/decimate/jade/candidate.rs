@@ -58,6 +58,9 @@ pub(super) fn fill(
     scratch: &mut Scratch,
 ) -> Result<(), Refusal> {
     let Situation { surface, names, error, cos_feature_angle, .. } = situation;
+    if surface.is_locked(v) {
+        return Err(Refusal::Impossible);
+    }
     match scratch.hole.gather(surface, v) {
         Ok(()) if scratch.hole.n_ring() >= 3 => {}
         Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Err(Refusal::Impossible),

@@ -87,9 +87,8 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
     sampled.gather(surface, hole, up, covered);
     // A star with a thin triangle may be replaced by one as thin.
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
-    // It is rare that a new edge is in the mesh already, and takes long to find out. So only the
-    // edges of the best filling are looked up; one that is taken is forbidden and the next best
-    // filling found. At most as many times as there are inner edges.
+    // It is rare that a new edge may not be made, and takes long to find out. So only the edges of
+    // the best filling are looked up; one that may not is forbidden and the next best filling found. At most as many times as there are inner edges.
     let mut taken: Vec<[u8; 2]> = vec![];
     loop {
         let score = |triangle: [u8; 3], cutoff: f64| {
@@ -103,8 +102,9 @@ pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling
         if worst_sq > limit_sq {
             return Some(worst_sq);
         }
-        let n_faces = |[i, j]: [u8; 2]| surface.n_faces(hole.ring[usize::from(i)], hole.ring[usize::from(j)]);
-        let Some(edge) = filling.inner_edges(hole).find(|&edge| n_faces(edge) > 0) else {
+        let may_join =
+            |[i, j]: [u8; 2]| surface.may_join(hole.ring[usize::from(i)], hole.ring[usize::from(j)]);
+        let Some(edge) = filling.inner_edges(hole).find(|&edge| !may_join(edge)) else {
             return Some(worst_sq);
         };
         taken.push(edge);

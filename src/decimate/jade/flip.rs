@@ -53,7 +53,7 @@ fn find_flip(
     let up = hole.average_normal();
     let is_better = volume(hole, &new) < volume(hole, &old)
         && new.iter().all(|triangle| aspect(triangle) >= worst_aspect && faces(triangle, up))
-        && is_new_edge(surface, hole, flipped)
+        && may_be_made(surface, hole, flipped)
         && sampled_error(hole, sampler, &new) < sampled_error(hole, sampler, &old);
     is_better.then_some(((first, second), flipped))
 }
@@ -68,10 +68,10 @@ fn flip(first: [u8; 3], second: [u8; 3]) -> Option<[[u8; 3]; 2]> {
     })
 }
 
-/// Whether the edge that a flip makes, between the first and last corner of its first triangle, is
-/// not in the mesh yet.
-fn is_new_edge(surface: &Surface, hole: &Hole, [[a, _, d], _]: [[u8; 3]; 2]) -> bool {
-    surface.n_faces(hole.ring[usize::from(a)], hole.ring[usize::from(d)]) == 0
+/// Whether the edge that a flip makes, between the first and last corner of its first triangle, may
+/// be made.
+fn may_be_made(surface: &Surface, hole: &Hole, [[a, _, d], _]: [[u8; 3]; 2]) -> bool {
+    surface.may_join(hole.ring[usize::from(a)], hole.ring[usize::from(d)])
 }
 
 /// Volume, times six, between two triangles and the removed vertex.

@@ -36,7 +36,8 @@ pub struct State {
 impl State {
     /// The state at step 0. O(n log n).
     pub(super) fn new(input: Input<Repaired>, options: &JadeOptions) -> Self {
-        let Input { mesh: Repaired { mesh: mut rest, points, looks, .. }, cos_feature_angle, .. } = input;
+        let Input { mesh, cos_feature_angle, lock_boundary, .. } = input;
+        let Repaired { mesh: mut rest, points, looks, .. } = mesh;
         let numbering = Numbering::along_curve(&rest.positions);
         let mut triangles = std::mem::take(&mut rest.triangles);
         numbering.sort_triangles(&mut triangles);
@@ -50,7 +51,10 @@ impl State {
         if moves.is_none() {
             rest.positions = vec![];
         }
-        let surface = Surface::new(positions, triangles);
+        let mut surface = Surface::new(positions, triangles);
+        if lock_boundary {
+            surface.lock_boundary();
+        }
         Self {
             error: GlobalError::new(options.estimate_kind(), &surface, rest.rounding),
             recorder: Recorder::new(surface.n_slots(), surface.n_vertices(), rest.rounding),

@@ -47,13 +47,13 @@ fn is_well_shaped(hole: &Hole, filling: &Filling) -> bool {
     (0..filling.triangles.len()).all(|i| aspect(&filling.triangle(hole, i)) >= limit)
 }
 
-/// No new edge is one that the mesh has already: that would join the surface to itself.
+/// No new edge is one that the mesh has already, which would join the surface to itself, or joins two locked vertices.
 pub fn keeps_topology(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
     match (hole.closed, hole.n_ring()) {
         (true, 3) => !surface.has_triangle([hole.ring[0], hole.ring[1], hole.ring[2]]),
         _ => filling
             .inner_edges(hole)
-            .all(|[i, j]| surface.n_faces(hole.ring[usize::from(i)], hole.ring[usize::from(j)]) == 0),
+            .all(|[i, j]| surface.may_join(hole.ring[usize::from(i)], hole.ring[usize::from(j)])),
     }
 }
 

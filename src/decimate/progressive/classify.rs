@@ -30,12 +30,14 @@ pub enum Class {
     CrackTip,
     /// A simple or boundary vertex with a triangle of zero area.
     Degenerate,
+    /// To stay as it is.
+    Locked,
 }
 
 impl Class {
     /// Whether a collapse may be tried.
     pub fn may_collapse(self) -> bool {
-        !matches!(self, Self::Empty | Self::NonManifold | Self::Corner)
+        !matches!(self, Self::Empty | Self::NonManifold | Self::Corner | Self::Locked)
     }
 }
 
@@ -129,6 +131,7 @@ pub fn classify(complex: &Complex, ring: &Ring, geometry: &Geometry) -> Class {
     let n_features = geometry.features.len();
     match ring.shape {
         Shape::Empty => Class::Empty,
+        _ if complex.is_locked(ring.center) => Class::Locked,
         Shape::NonManifold => Class::NonManifold,
         Shape::Cycle => match geometry.features[..] {
             [] | [_] if geometry.is_degenerate => Class::Degenerate,

@@ -8,7 +8,7 @@ use super::complex::Complex;
 use super::error::{FEW, actual_error, fan_of};
 use super::ring::Ring;
 use super::shadow::Shadow;
-use crate::geometry::vector::{length_sq, sub};
+use crate::geometry::vector::{length, length_sq, sub};
 
 /// Stars of more triangles are not walked to mark their neighbours.
 const MARKED_VALENCE: usize = 64;
@@ -80,22 +80,23 @@ pub struct Candidate<'a> {
 /// The collapse of the ring's centre along the valid edge that leaves the least error; along the shortest valid one where
 /// there are more than [`FEW`] triangles. O(valence^3) for few, O(valence) for others.
 pub fn best_valid(candidate: Candidate<'_>, shadow: &mut Shadow, marks: &mut Marks) -> Option<Collapse> {
-    let Candidate { ring, geometry, class, .. } = candidate;
+    let Candidate { complex, ring, geometry, class } = candidate;
     let last = ring.vertices.len().checked_sub(1)?;
     let ends = [0, last];
     shadow.gather(ring, geometry);
     match class {
-        Class::Empty | Class::NonManifold | Class::Corner => None,
+        Class::Empty | Class::NonManifold | Class::Corner | Class::Locked => None,
         Class::InteriorEdge(ends) => best_of(candidate, shadow, ends.into_iter(), marks),
         Class::Boundary => best_of(candidate, shadow, ends.into_iter(), marks),
         Class::Degenerate if !ring.is_cycle() => best_of(candidate, shadow, ends.into_iter(), marks),
         Class::Simple | Class::Degenerate => best_of(candidate, shadow, 0..=last, marks),
         Class::CrackTip => {
             shadow.close_crack();
-            nearest_first(geometry, 0..last).find(|&into| shadow.is_valid_fan(into)).map(|into| Collapse {
+            let may_go = |into: &usize| shadow.is_valid_fan(*into) && !breaks_lock(complex, ring, *into);
+            nearest_first(geometry, 0..last).find(may_go).map(|into| Collapse {
                 into,
                 contact: Contact::None,
-                distance: 0.0,
+                distance: length(sub(geometry.points[into], geometry.apex)),
             })
         }
     }
@@ -172,8 +173,30 @@ fn nearest_first(
     by_length.take(MAX_TRIED)
 }
 
-/// How the fan from neighbour `into` would meet the rest of the mesh; nothing if one of its triangles is there already.
+/// Whether the collapse into neighbour `into` would join two locked points by a new edge, take an
+/// edge between two of them away, or the last triangle of one.
+fn breaks_lock(complex: &Complex, ring: &Ring, into: usize) -> bool {
+    if !complex.has_locked() {
+        return false;
+    }
+    let is_locked = |&i: &usize| complex.is_locked(ring.vertices[i]);
+    let is_last = |i: usize| complex.star(ring.vertices[i]).iter().all(|slot| ring.slots.contains(slot));
+    let is_in_fan = |i: usize| fan_of(ring, into).any(|pair| pair.contains(&i));
+    let mut others = (0..ring.vertices.len()).filter(|&i| i != into).filter(is_locked);
+    if is_locked(&into) {
+        let leaves_target = fan_of(ring, into).next().is_some() || !is_last(into);
+        !leaves_target || others.any(|i| !ring.are_adjacent(into, i) || !is_in_fan(i))
+    } else {
+        others.any(|i| !is_in_fan(i) && is_last(i))
+    }
+}
+
+/// How the fan from neighbour `into` would meet the rest of the mesh. `None` if one of its triangles is there already, or if a locked
+/// point forbids it.
 fn contact(complex: &Complex, ring: &Ring, into: usize, marks: &mut Marks) -> Option<Contact> {
+    if breaks_lock(complex, ring, into) {
+        return None;
+    }
     let target = ring.vertices[into];
     let is_marking = complex.star(target).len() <= MARKED_VALENCE;
     if is_marking {

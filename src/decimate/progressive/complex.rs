@@ -1,7 +1,7 @@
 //! The mesh while its topology changes: any triangles over any points.
 
 use crate::geometry::vector::{Vector, widen};
-use crate::mesh::Stars;
+use crate::mesh::{Locked, Stars};
 
 /// Corners of a slot whose triangle is gone.
 const GONE: [u32; 3] = [u32::MAX; 3];
@@ -16,13 +16,31 @@ pub struct Complex {
     triangles: Vec<[u32; 3]>,
     stars: Stars,
     n_triangles: usize,
+    locked: Locked,
 }
 
 impl Complex {
     /// The complex in which slot `t` holds `triangles[t]`, each with three distinct corners below `positions.len()`.
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let stars = Stars::new(positions.len(), &triangles);
-        Self { n_triangles: triangles.len(), positions, triangles, stars }
+        Self { n_triangles: triangles.len(), positions, triangles, stars, locked: Locked::default() }
+    }
+
+    /// Locks the points on the boundary.
+    pub fn lock_boundary(&mut self) {
+        self.locked = Locked::boundary_of(self.n_points(), self.iter().map(|(_, corners)| corners));
+    }
+
+    /// Whether some points may be locked.
+    #[inline]
+    pub fn has_locked(&self) -> bool {
+        !self.locked.is_empty()
+    }
+
+    /// Whether point `v` is to stay.
+    #[inline]
+    pub fn is_locked(&self, v: u32) -> bool {
+        self.locked.has(v)
     }
 
     /// Points, in use or not.

@@ -18,7 +18,7 @@ pub fn local_error(class: Class, ring: &Ring, geometry: &Geometry) -> f64 {
         point_segment_distance_sq(geometry.apex, [geometry.points[i], geometry.points[j]]).sqrt()
     };
     match class {
-        Class::Empty => 0.0,
+        Class::Empty | Class::Locked => 0.0,
         _ if vanishes(ring) => geometry.area.sqrt(),
         Class::Boundary => to_line(0, geometry.points.len() - 1),
         Class::InteriorEdge([i, j]) => to_line(i, j),

@@ -19,7 +19,7 @@ pub(crate) fn run(
     watch: Watch<'_>,
 ) -> Result<Decimated<TriangleMesh, 3, ProgressiveReport>, Stopped> {
     let may_change = input.may_change();
-    let Input { mesh, max_error, cos_feature_angle } = input;
+    let Input { mesh, max_error, cos_feature_angle, lock_boundary } = input;
     let Repaired { mut mesh, points, looks, .. } = along_a_curve(mesh);
     let settings = Settings {
         cos_feature_angle,
@@ -29,7 +29,10 @@ pub(crate) fn run(
         options: *options,
     };
     let (triangles, wedges) = part_wedges(mesh.triangles.clone(), points, looks);
-    let complex = Complex::new(mesh.positions.clone(), triangles);
+    let mut complex = Complex::new(mesh.positions.clone(), triangles);
+    if lock_boundary {
+        complex.lock_boundary();
+    }
     let n_vertices = u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX);
     let mut decimation = Decimation::new(complex, wedges, n_vertices, settings);
     let go_on = |decimation: &Decimation| {

@@ -127,11 +127,22 @@ impl Decimation {
         if self.error_in_view(v) > self.settings.max_error {
             return;
         }
+        if self.touches_lock() {
+            return;
+        }
         let View { ring, geometry, class } = &self.view;
         self.pieces.cut(ring, geometry, *class);
         self.split_into_pieces(v);
         let slots = std::mem::take(&mut self.view.ring.slots);
         self.evaluate_corners(&slots);
+    }
+
+    /// Whether a triangle of the vertex at hand has a locked corner: such a vertex is not split, or
+    /// the surface would come off its border.
+    fn touches_lock(&self) -> bool {
+        let Self { complex, view: View { ring, .. }, .. } = self;
+        let is_locked = |&slot: &u32| complex.corners(slot).into_iter().any(|v| complex.is_locked(v));
+        complex.has_locked() && ring.slots.iter().any(is_locked)
     }
 
     /// Looks at all corners of these triangles, whose names have changed.
@@ -147,7 +158,7 @@ impl Decimation {
         for v in (0..).take(self.complex.n_points()) {
             self.look_at(v);
             let View { ring, geometry, class } = &self.view;
-            if self.pieces.cut_at_features(ring, geometry, *class) {
+            if !self.touches_lock() && self.pieces.cut_at_features(ring, geometry, *class) {
                 self.split_into_pieces(v);
             }
         }

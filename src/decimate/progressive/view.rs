@@ -17,7 +17,7 @@ pub(super) struct View {
 /// Where a vertex is to wait, and the error that decides when its turn comes. Accumulated errors are to be added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// Nowhere: it is in no triangle.
+    /// Nowhere: it is in no triangle, or locked.
     Nowhere,
     /// Among those that may be collapsed.
     Queued(f64),
@@ -52,7 +52,7 @@ impl View {
     /// Where the vertex is to wait.
     pub(super) fn place(&self) -> Place {
         match self.class {
-            Class::Empty => Place::Nowhere,
+            Class::Empty | Class::Locked => Place::Nowhere,
             class if class.may_collapse() => Place::Queued(self.error()),
             _ => Place::Stuck(self.error() + self.size()),
         }

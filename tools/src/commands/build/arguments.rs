@@ -58,6 +58,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "DEG", value_parser = angle)]
     pub(super) feature_angle: Option<f64>,
 
+    /// Keep the vertices on the boundary of a surface at every level, so that surfaces that meet
+    /// there fit whatever their levels
+    #[arg(long)]
+    pub(super) lock_boundary: bool,
+
     /// Keep at most this many levels; without it, each has about 63/64 of the triangles of the one
     /// before
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -209,6 +214,7 @@ impl Arguments {
         Ok(BuildOptions {
             max_error: self.max_error.map(|length| length.in_mesh_units(bounding_diagonal)),
             feature_angle_degrees: self.feature_angle.unwrap_or(usual.feature_angle_degrees),
+            lock_boundary: self.lock_boundary,
             ..usual
         })
     }
@@ -260,8 +266,9 @@ impl Arguments {
 
     /// All options that decide what a file holds, as one text.
     pub(super) fn key(&self) -> String {
-        let Self { max_error, feature_angle, method, bound, jade, fusion, progressive, .. } = self;
-        let options = (max_error, feature_angle, method, bound, jade, fusion, progressive);
+        let Self { max_error, feature_angle, lock_boundary, method, bound, .. } = self;
+        let Self { jade, fusion, progressive, .. } = self;
+        let options = (max_error, feature_angle, lock_boundary, method, bound, jade, fusion, progressive);
         format!("{options:?} {:?}", self.stored())
     }
 }

@@ -53,9 +53,21 @@ impl Outcome<'_> {
             "reading": self.read,
             "notes": self.read.notes(),
             "repairs": build.repairs(),
+            "dropped_distance": build.dropped_distance(),
             "certified_triangles": build.n_certified_triangles(),
             "operations": build.progressive().map(|report| &report.counts),
         })
+    }
+
+    /// What the repair did, and how far what it dropped lies from the rest.
+    fn repaired(&self) -> String {
+        let tally = figures::tally(&json!(self.build.repairs()));
+        if self.build.dropped_distance() > 0.0 {
+            let distance = figures::error(self.build.dropped_distance(), self.bounding_diagonal);
+            format!("{tally}; what was dropped lies up to {distance} from the rest, which every error counts")
+        } else {
+            tally
+        }
     }
 
     fn text(&self, job: &Job<'_>) -> String {
@@ -66,7 +78,7 @@ impl Outcome<'_> {
         let list = figures::list(&[
             ("mesh", format!("{n_triangles} triangles, {n_vertices} vertices")),
             ("read", figures::reading(self.read)),
-            ("repaired", figures::tally(&json!(build.repairs()))),
+            ("repaired", self.repaired()),
             ("levels", format!("{}, down to {n_coarsest} triangles", stored.n_levels)),
             ("error", format!("up to {}", figures::error(stored.max_error, self.bounding_diagonal))),
             ("stored", format!("{n_stored} triangles in {}", figures::bytes(stored.file_bytes))),
