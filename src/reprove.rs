@@ -19,8 +19,8 @@ pub struct ErrorTable<'a> {
     lod: &'a Lod,
     input: TriangleMesh,
     last_certified: u32,
-    /// Added to every stated error: what rounding moves the vertices of a volume's boundary that stay in one plane or line. 0 for surfaces,
-    /// whose errors count it in.
+    /// Added to every stated error: what rounding moves the vertices of a volume's boundary that stay
+    /// in one plane or line. 0 for surfaces, whose errors count it in.
     slack: f64,
 }
 
@@ -84,14 +84,13 @@ impl<'a> ErrorTable<'a> {
     /// [`ReproveError`] when the file's errors are estimates, or its finest level is damaged.
     pub fn new(lod: &'a Lod) -> Result<Self, ReproveError> {
         let metadata = lod.metadata().map_err(|error| ReproveError::Metadata(error.to_string()))?;
-        let proven = if lod.n_corners() == 4 { Bound::Boundary } else { Bound::Certified };
-        if metadata.bound != proven {
+        let Some(last_certified) = lod.last_proven(&metadata) else {
             return Err(ReproveError::NotCertified { found: metadata.bound });
-        }
-        let least = metadata.certified_simplices.unwrap_or(0);
-        let n_certified = lod.curve().take_while(|point| u64::from(point.simplices) >= least).count();
-        let last_certified = u32::try_from(n_certified.saturating_sub(1)).unwrap_or(u32::MAX);
-        let input = surface(lod, &lod.at_level(0))?;
+        };
+        // A level is within its error of the input, and level 0 is within its own: a level has the
+        // difference left.
+        let finest = surface(lod, &lod.at_level(0))?;
+        let input = TriangleMesh { rounding: finest.rounding.max(lod.at_level(0).error()), ..finest };
         let largest = input.positions.iter().flatten().fold(0.0_f32, |largest, x| largest.max(x.abs()));
         let slack = if lod.n_corners() == 4 { ROUNDING * f64::from(largest) } else { 0.0 };
         Ok(Self { lod, input, last_certified, slack })

@@ -3,17 +3,18 @@
 mod error;
 mod options;
 mod progress;
+mod spanned;
 mod volume;
 mod write;
 
 pub use error::BuildError;
 pub use options::{BuildOptions, Decimator, VolumeOptions};
 pub use progress::{Observer, Phase, Progress};
+pub use spanned::bounding_diagonal;
 pub use volume::{VolumeBuild, build_volume, build_volume_with, repair_volume};
 
 use crate::decimate::progressive::ProgressiveReport;
 use crate::decimate::{Decimated, Input, Watch, jade, progressive};
-use crate::geometry::bounds;
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::widen;
 use crate::history::History;
@@ -220,14 +221,4 @@ fn bound_of_dropped(Repaired { mesh, dropped, .. }: &Repaired) -> f64 {
     let corners = |triangle: &[u32; 3]| triangle.map(|v| widen(mesh.positions[v as usize]));
     let left: Vec<Triangle> = mesh.triangles.iter().map(corners).collect();
     bound_of_pieces(dropped, &left)
-}
-
-/// Length of the diagonal of the bounding box of a mesh, in mesh units.
-///
-/// ```
-/// let mesh = nephrite::generate::box_volume([2; 3]);
-/// assert_eq!(nephrite::bounding_diagonal(&mesh), 3_f64.sqrt());
-/// ```
-pub fn bounding_diagonal<'a>(mesh: impl Into<Vertices<'a>>) -> f64 {
-    bounds::bounding_diagonal(mesh.into().positions)
 }

@@ -14,6 +14,7 @@ mod inflection;
 mod lod;
 mod patches;
 mod picker;
+mod proven;
 mod simplex;
 mod used;
 mod view;
