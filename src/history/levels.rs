@@ -3,8 +3,9 @@
 //! A decimator counts every removal, some 34,000 steps for the bunny. Nobody asks for a mesh between two removals of a
 //! triangle each, and triangles that are born and die between two kept steps need not be stored, so a file keeps few
 //! steps, spread evenly on the scale on which levels of detail are chosen: the logarithm of the simplex count. With at
-//! most `n` levels that scale is cut into `n - 1` intervals from the input to the coarsest step, and the first step in each
-//! interval is kept. By default an interval is a factor of 64/63.
+//! most `n` levels that scale is cut into `n - 1` intervals from the input to the coarsest step, and one step of each
+//! interval is kept: the first one after which the error rises, or the first one if the error does not rise in the interval.
+//! By default an interval is a factor of 64/63.
 
 use super::{History, HistoryError, NEVER};
 use crate::tree::Lifetime;
@@ -47,11 +48,12 @@ pub struct Levels {
 impl Levels {
     /// Chooses the levels of a history.
     ///
-    /// Step 0 is always level 0. Of steps with equal error only the last is a choice, since nobody would ask for the others,
-    /// unless the history states deviations as well; the last step of the history is kept, and without a limit every step before a
-    /// leap of more than 10 times the error. `limit` is the largest number of
-    /// levels; 1 (or 0) keeps the input only, and a large one keeps every step that removes a simplex. Cost: one pass over
-    /// simplices and steps.
+    /// Step 0 is always level 0, and the last step is kept. Every interval of simplex counts that
+    /// has a step has a level: the first step that is the last of those with its error, or else the
+    /// first step. If the history states deviations as well, it is the first step in any case.
+    /// Without a limit every step before a leap of more than 10 times the error is kept too.
+    /// `limit` is the largest number of levels; 1 (or 0) keeps the input only, and a large one
+    /// keeps every step that removes a simplex. Cost: one pass over simplices and steps.
     ///
     /// # Errors
     ///
@@ -169,15 +171,28 @@ fn choose_steps(
         |count: u32| if span > 0.0 { (octaves(finest, count) / span * n_intervals).floor() } else { 0.0 };
 
     let mut last_interval = 0.0;
+    // The first step of the interval at hand, as long as the interval has no level.
+    let mut spare: Option<u32> = None;
     for step in (1u32..).take(alive.len() - 2) {
-        let is_last_of_equals = rises(step as usize);
-        let this_interval = interval(alive[step as usize]);
-        let is_smaller = || steps.last().is_some_and(|&kept| alive[step as usize] < alive[kept as usize]);
-        if is_last_of_equals && (this_interval > last_interval || (leaps(step as usize) && is_smaller())) {
+        let count = alive[step as usize];
+        let this_interval = interval(count);
+        // Simplex counts may rise from a step to the next, never from a level to the next.
+        let is_smaller = |steps: &[u32]| steps.last().is_some_and(|&kept| count < alive[kept as usize]);
+        if let Some(before) = spare.filter(|&before| this_interval > interval(alive[before as usize])) {
+            steps.push(before);
+            last_interval = interval(alive[before as usize]);
+            spare = None;
+        }
+        let is_new = this_interval > last_interval;
+        if rises(step as usize) && (is_new || (leaps(step as usize) && is_smaller(&steps))) {
             steps.push(step);
             last_interval = this_interval;
+            spare = None;
+        } else if is_new && spare.is_none() && is_smaller(&steps) {
+            spare = Some(step);
         }
     }
+    steps.extend(spare);
     // The last step takes the place of any that it is not coarser than.
     let last = u32::try_from(alive.len() - 1).unwrap_or(u32::MAX);
     while steps.len() > 1
@@ -241,8 +256,23 @@ mod tests {
     #[test]
     fn runs_of_equal_error_leave_their_last_step() {
         let errors = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
-        let alive = [14, 12, 10, 8, 6, 4, 2];
+        let alive = [14000, 13999, 13998, 13000, 12999, 12998, 9000];
         assert_eq!(choose_steps(&errors, &alive, None), [0, 2, 4, 6]);
+    }
+
+    #[test]
+    fn every_interval_has_a_level_whatever_the_error_does() {
+        let alive: Vec<u32> = (0..=5000).map(|step| 10_000 - 2 * step).collect();
+        for errors in [vec![1.0; 5001], (0..=5000).map(|step| f64::from(step / 700)).collect()] {
+            let steps = choose_steps(&errors, &alive, None);
+            for pair in steps.windows(2) {
+                let [fine, coarse] = [0, 1].map(|i| f64::from(alive[pair[i] as usize]));
+                assert!(coarse >= 0.968 * fine || pair[1] - pair[0] <= 2, "{fine} to {coarse}");
+            }
+            // A step before a rise is a better level than one before it of the same error.
+            let rising = (1..5000_u32).filter(|&step| errors[step as usize + 1] > errors[step as usize]);
+            assert!(rising.filter(|step| alive[*step as usize] > 100).all(|step| steps.contains(&step)));
+        }
     }
 
     #[test]
@@ -269,15 +299,16 @@ mod tests {
             prop_assert_eq!((steps[0], steps[steps.len() - 1] as usize), (0, last));
             prop_assert!(limit.is_none_or(|limit| steps.len() <= limit as usize));
             let span = octaves(finest, alive[last]);
-            let interval = limit.map_or((64f64 / 63.0).log2(), |limit| span / f64::from(limit - 1));
-            for step in 1..last {
-                // A step that was a choice and is no level has nearly as many triangles as the level before it, or as few
-                // as the last one.
-                let kept = steps.partition_point(|&kept| kept as usize <= step) - 1;
-                let finer = alive[steps[kept] as usize];
-                let is_choice = errors[step + 1] > errors[step] && alive[step] > alive[last];
-                prop_assert!(!is_choice || octaves(finer, alive[step]) < interval + 1e-9);
-                prop_assert!(steps[kept] as usize != step || is_choice);
+            let n_intervals = limit.map_or((span / (64f64 / 63.0).log2()).ceil(), |limit| f64::from(limit - 1));
+            let part_of = |count: u32| if span > 0.0 { octaves(finest, count) / span } else { 0.0 };
+            let interval = |step: u32| (part_of(alive[step as usize]) * n_intervals).floor();
+            for step in (1..).take(last - 1) {
+                // Every interval has a level, and the first step of an interval after which the error rises is it.
+                let is_choice = interval(step) > 0.0 && interval(step) < (part_of(alive[last]) * n_intervals).floor();
+                let level = steps.iter().copied().find(|&kept| interval(kept) == interval(step));
+                prop_assert!(!is_choice || level.is_some());
+                let rises = errors[step as usize + 1] > errors[step as usize];
+                prop_assert!(!(is_choice && rises) || level.is_some_and(|level| level <= step));
             }
         }
     }

@@ -155,6 +155,22 @@ impl Arguments {
         }
     }
 
+    /// What is written, and the level whose error it has: the level that was asked for, or a mesh
+    /// between two levels if the file has operations that lead to the count.
+    fn pick<'a>(&self, lod: &'a Lod) -> Result<(Cut<'a>, Mesh), Failure> {
+        let name = || self.file.to_string();
+        if let Some(count) = self.selector.triangles {
+            let n_triangles = count.of(lod.at_level(0).n_simplices());
+            let replayed = lod.replay(n_triangles).map_err(|source| Failure::file(name(), source))?;
+            if let Some(replayed) = replayed {
+                return Ok((replayed.bound, Mesh::Surface(replayed.mesh)));
+            }
+        }
+        let cut = self.selector.cut(&self.file, lod)?;
+        let mesh = self.mesh(&cut).map_err(|source| Failure::file(name(), source))?;
+        Ok((cut, mesh))
+    }
+
     /// What is written of a level.
     fn mesh(&self, cut: &Cut<'_>) -> Result<Mesh, QueryError> {
         Ok(match (cut.lod().simplex(), &self.slice) {
@@ -172,15 +188,14 @@ impl Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
-    let Arguments { file, output, output_format, selector, .. } = arguments;
+    let Arguments { file, output, output_format, .. } = arguments;
     let start = Instant::now();
     interrupt::listen();
     files::check_target(output, &file.path().into_iter().collect::<Vec<_>>())?;
     let lod = files::open_lod(file)?;
     arguments.check(&lod)?;
     let format = meshes::format_to_write(output, *output_format, arguments.simplex_written(&lod))?;
-    let cut = selector.cut(file, &lod)?;
-    let mesh = arguments.mesh(&cut).map_err(|source| Failure::file(file.to_string(), source))?;
+    let (cut, mesh) = arguments.pick(&lod)?;
     interrupt::check()?;
     let notes = mesh.write(output, format)?.notes();
     let seconds = start.elapsed();
@@ -192,10 +207,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report, Failure> {
 
 fn text(output: &Target, mesh: &Mesh, cut: &Cut<'_>, seconds: Duration) -> String {
     format!(
-        "{output}: {}, {} vertices, error {}, level {}, {}\n",
+        "{output}: {}, {} vertices, error {}, {}, level {}, {}\n",
         figures::simplices(mesh.n_simplices(), mesh.simplex()),
         figures::count(mesh.n_vertices()),
         figures::error(cut.error(), cut.lod().bounding_diagonal()),
+        if cut.is_proven() { "proven" } else { "an estimate" },
         cut.level(),
         figures::time(seconds)
     )
@@ -206,6 +222,7 @@ fn json(mesh: &Mesh, cut: &Cut<'_>, seconds: Duration, notes: &[String]) -> Valu
         (mesh.simplex().to_string()): mesh.n_simplices(),
         "vertices": mesh.n_vertices(),
         "error": cut.error(),
+        "proven": cut.is_proven(),
         "deviations": deviations(cut),
         "level": cut.level(),
         "runs": cut.n_runs(),
