@@ -191,6 +191,24 @@ fn gap([a, b]: Segment, [c, d]: Segment, s: f64, t: f64) -> Vector {
     add_scaled(add_scaled(sub(a, c), s, sub(b, a)), -t, sub(d, c))
 }
 
+/// Parameter on the line of `first`, unclamped at best effort, at which it is nearest to `second`.
+pub fn nearest_parameter([a, b]: Segment, [c, d]: Segment) -> f64 {
+    let (u, v, w) = (sub(b, a), sub(d, c), sub(a, c));
+    let (uu, uv, vv) = (length_sq(u), dot(u, v), length_sq(v));
+    let (uw, vw) = (dot(u, w), dot(v, w));
+    let determinant = uu * vv - uv * uv;
+    let s =
+        if determinant > 1e-12 * uu * vv { ((uv * vw - vv * uw) / determinant).clamp(0.0, 1.0) } else { 0.5 };
+    let t = (uv * s + vw) / vv;
+    if t < 0.0 {
+        -uw / uu
+    } else if t > 1.0 {
+        (uv - uw) / uu
+    } else {
+        s
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

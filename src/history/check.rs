@@ -27,7 +27,7 @@ pub enum HistoryError {
     /// No step at all, not even step 0.
     #[error("error table is empty")]
     NoSteps,
-    /// An error is negative or not finite, or the table falls.
+    /// An error is negative or NaN, or the table falls.
     #[error("error of step {step} is {found} after {before}")]
     Error {
         /// Which step.
@@ -214,7 +214,7 @@ impl<const CORNERS: usize> History<CORNERS> {
         }
         let mut before = 0.0;
         for (step, &found) in (0..).zip(&self.errors) {
-            if !found.is_finite() || found < before {
+            if found.is_nan() || found < before {
                 return Err(HistoryError::Error { step, found, before });
             }
             before = found;

@@ -37,10 +37,11 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
     }
 
     /// Starts the next step. Its error is `error`, or that of the last step if that is larger. NaN
-    /// and values beyond the largest possible distance are clamped to it.
+    /// and finite values beyond the largest possible distance are clamped to it; an infinite error
+    /// says that there is no bound.
     pub fn step(&mut self, error: f64) {
         self.now += 1;
-        let error = error.min(FARTHEST);
+        let error = if error == f64::INFINITY { error } else { error.min(FARTHEST) };
         if error > self.error() {
             self.rises.push((self.now, error));
         }

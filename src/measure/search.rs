@@ -20,6 +20,7 @@ use crate::geometry::vector::Vector;
 const FRONT_LEN: usize = 16;
 
 /// Triangles under a hierarchy.
+#[derive(Clone, Debug)]
 pub(super) struct TriangleTree {
     nodes: Vec<Node>,
     /// In the order of the leaves.
@@ -73,6 +74,24 @@ impl TriangleTree {
     pub(super) fn search(&self, corners: &[Vector], hint: u32, stack: &mut Stack) -> Found {
         let mut best = Found { distance_sq: f64::INFINITY, triangle: hint };
         self.improve(&mut best, corners, hint);
+        self.walk(corners, &mut best, stack, |best, triangle| {
+            if triangle != hint {
+                self.improve(best, corners, triangle);
+            }
+        });
+        best
+    }
+
+    /// Shows `improve` all triangles whose boxes are nearer to each of the corners than the best distance so far, the nearest boxes
+    /// first.
+    #[inline(always)]
+    pub(super) fn walk(
+        &self,
+        corners: &[Vector],
+        best: &mut Found,
+        stack: &mut Stack,
+        mut improve: impl FnMut(&mut Found, u32),
+    ) {
         let stack = &mut stack.nodes;
         stack.clear();
         stack.push((0.0, 0));
@@ -93,14 +112,11 @@ impl TriangleTree {
                 match node.child(lane) {
                     Child::Node(child) => push_in_order(stack, bottom, (distances_sq[lane], child)),
                     Child::Leaf { first, n_triangles } => {
-                        for triangle in (first..first + n_triangles).filter(|&triangle| triangle != hint) {
-                            self.improve(&mut best, corners, triangle);
-                        }
+                        (first..first + n_triangles).for_each(|triangle| improve(best, triangle));
                     }
                 }
             }
         }
-        best
     }
 
     /// Replaces the best triangle if this one bounds all corners better.

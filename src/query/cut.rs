@@ -1,5 +1,6 @@
 //! The answer to a query.
 
+use super::lod::from_file;
 use super::used::UsedVertices;
 use super::{Lod, QueryError};
 use crate::tree::Runs;
@@ -39,9 +40,9 @@ impl<'a> Cut<'a> {
         self.level
     }
 
-    /// Error of the level, in mesh units.
+    /// Error of the level, in mesh units. Infinite if no bound is stated, as for a level without triangles.
     pub fn error(&self) -> f64 {
-        self.lod.errors()[self.level as usize]
+        from_file(self.lod.errors()[self.level as usize])
     }
 
     /// The simplices of the level as contiguous ranges of slots, ascending and without overlap.

@@ -1,7 +1,7 @@
 //! All levels of detail of one mesh.
 
 use super::{Cut, Simplex};
-use crate::store::{AttributeView, Metadata, OpenError, Opened, VerifyError};
+use crate::store::{AttributeView, Metadata, NO_BOUND, OpenError, Opened, VerifyError};
 use std::path::Path;
 
 /// All levels of detail of one mesh, from an opened `.neph` file.
@@ -27,7 +27,7 @@ pub struct Lod {
 /// One level on the curve of error against size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// Error of the level, in mesh units.
+    /// Error of the level, in mesh units; infinite if no bound is stated, as for a level without triangles.
     pub error: f64,
     /// Its simplices: triangles of a surface, tetrahedra of a volume.
     pub simplices: u32,
@@ -39,6 +39,11 @@ impl From<Opened> for Lod {
     fn from(file: Opened) -> Self {
         Self { file }
     }
+}
+
+/// The error that the number in a file stands for.
+pub(super) fn from_file(error: f64) -> f64 {
+    if error == NO_BOUND { f64::INFINITY } else { error }
 }
 
 impl Lod {
@@ -107,7 +112,8 @@ impl Lod {
         self.file.header().n_levels
     }
 
-    /// Error of each level in mesh units, never falling. Length: [`n_levels`](Self::n_levels).
+    /// Error of each level in mesh units, never falling; `f64::MAX` if no bound is stated, as for levels without triangles, where
+    /// [`Cut::error`] is infinite. Length: [`n_levels`](Self::n_levels).
     pub fn errors(&self) -> &[f64] {
         self.file.errors()
     }
@@ -127,7 +133,7 @@ impl Lod {
             (simplices, vertices.saturating_sub(n_unborn.next().unwrap_or(0)))
         });
         self.errors().iter().zip(counts).map(|(&error, (simplices, vertices))| CurvePoint {
-            error,
+            error: from_file(error),
             simplices,
             vertices,
         })

@@ -5,7 +5,7 @@ use super::attributes::AttributeSections;
 use super::body::BodyWriter;
 use super::compact::CompactSlots;
 use super::pieces::Pieces;
-use super::{StoreReport, Vertices};
+use super::{NO_BOUND, StoreReport, Vertices};
 use crate::History;
 use crate::geometry::bounds::Bounds;
 use crate::geometry::vector::widen;
@@ -115,7 +115,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
     fn stream_section(&self, kind: SectionKind, body: &mut BodyWriter<impl Write>) -> io::Result<()> {
         match kind {
             SectionKind::Metadata => body.put(&self.metadata),
-            SectionKind::Errors => body.put_each(self.errors()),
+            SectionKind::Errors => body.put_each(self.errors().map(|error| error.min(NO_BOUND))),
             SectionKind::SimplexCounts => body.put(bytemuck::cast_slice(self.levels.simplex_counts())),
             SectionKind::VertexCounts => body.put(bytemuck::cast_slice(&self.vertices.counts)),
             SectionKind::VertexBirths => body.put(bytemuck::cast_slice(&self.vertices.births)),
@@ -167,6 +167,7 @@ impl<const CORNERS: usize> Content<'_, CORNERS> {
         self.vertices.order.iter().map(|&vertex| self.mesh.positions[vertex as usize])
     }
 
+    /// Error of each level; infinite where no bound is stated.
     fn errors(&self) -> impl Iterator<Item = f64> + '_ {
         self.levels.steps().iter().map(|&step| self.history.errors[step as usize])
     }

@@ -26,6 +26,9 @@ mod verify;
 mod vertices;
 mod write;
 
+/// How a file writes that no bound is stated for a level, since it may hold finite errors only.
+pub(crate) const NO_BOUND: f64 = f64::MAX;
+
 pub use attributes::check_attributes;
 pub use error::{CompactFault, OpenError, VerifyError, WriteError};
 pub use metadata::{Bound, Metadata, Method};

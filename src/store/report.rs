@@ -13,7 +13,7 @@ pub struct StoreReport {
     pub n_vertices: u32,
     /// Simplices of the coarsest level.
     pub n_coarsest: u32,
-    /// Error of the coarsest level, in mesh units.
+    /// Error of the coarsest level, in mesh units; infinite if no bound is stated.
     pub max_error: f64,
     /// Length of the file.
     pub file_bytes: u64,

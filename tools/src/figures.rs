@@ -53,6 +53,9 @@ pub(crate) fn significant(value: f64) -> String {
 
 /// An error beside its share of the diagonal: `0.0123 (0.1 % of the diagonal)`.
 pub(crate) fn error(error: f64, bounding_diagonal: f64) -> String {
+    if error.is_infinite() {
+        return "infinite (nothing is left)".to_owned();
+    }
     format!("{} ({} % of the diagonal)", significant(error), percent(error, bounding_diagonal))
 }
 

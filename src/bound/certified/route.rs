@@ -7,8 +7,8 @@ use super::labels::Labels;
 use super::removal::{ChainInStar, Removal};
 use super::star::{OUTSIDE, StarIndex};
 use super::{Certified, NOT_ON_RIM};
-use crate::geometry::distance::{Segment, point_segment_distance_sq};
-use crate::geometry::vector::{Vector, add_scaled, dot, length_sq, sub};
+use crate::geometry::distance::{Segment, nearest_parameter, point_segment_distance_sq};
+use crate::geometry::vector::{Vector, add_scaled, sub};
 
 /// A hole in the middle of its filling: which triangle of the star, and which of the filling.
 #[derive(Clone, Debug, Default)]
@@ -258,22 +258,4 @@ fn cross_nearest(segment: Segment, start: f32, end: f32, target: Segment) -> (f3
 /// The point of a source edge where a portion ends.
 pub(super) fn point_at([low, high]: Segment, end: f32) -> Vector {
     if end == 1.0 { high } else { add_scaled(low, end.into(), sub(high, low)) }
-}
-
-/// Parameter on the line of `first`, unclamped at best effort, at which it is nearest to `second`.
-fn nearest_parameter([a, b]: Segment, [c, d]: Segment) -> f64 {
-    let (u, v, w) = (sub(b, a), sub(d, c), sub(a, c));
-    let (uu, uv, vv) = (length_sq(u), dot(u, v), length_sq(v));
-    let (uw, vw) = (dot(u, w), dot(v, w));
-    let determinant = uu * vv - uv * uv;
-    let s =
-        if determinant > 1e-12 * uu * vv { ((uv * vw - vv * uw) / determinant).clamp(0.0, 1.0) } else { 0.5 };
-    let t = (uv * s + vw) / vv;
-    if t < 0.0 {
-        -uw / uu
-    } else if t > 1.0 {
-        (uv - uw) / uu
-    } else {
-        s
-    }
 }

@@ -1,4 +1,4 @@
-//! Errors that deletions have left behind (equation 5).
+//! Errors that deletions have left behind (equation 5): they decide whose turn it is.
 
 use super::ring::Ring;
 use crate::bound::accumulated::round_up;
@@ -24,12 +24,6 @@ impl Accumulated {
     /// The vertex takes what was left at the one that it copies.
     pub fn add_copy(&mut self, v: u32) {
         self.errors.push(self.errors[v as usize]);
-    }
-
-    /// Largest error at the neighbours once the ring's centre has gone at this distance from what takes its place.
-    pub fn after(&self, ring: &Ring, distance: f64) -> f64 {
-        let around = ring.vertices.iter().map(|&r| self.at(r));
-        around.fold(self.at(ring.center), f64::max) + distance
     }
 
     /// The ring's centre goes: each neighbour is left with the distance and the error that had come together at the centre or

@@ -5,9 +5,10 @@
 
 use super::classify::{Class, Geometry};
 use super::complex::Complex;
-use super::error::{FEW, actual_error, fan_of};
+use super::error::{FEW, actual_error, fan_of, vanishes};
 use super::ring::Ring;
 use super::shadow::Shadow;
+use super::vanished::beside;
 use crate::geometry::vector::{length, length_sq, sub};
 
 /// Stars of more triangles are not walked to mark their neighbours.
@@ -110,11 +111,19 @@ fn best_of(
     neighbors: impl Iterator<Item = usize> + Clone,
     marks: &mut Marks,
 ) -> Option<Collapse> {
+    if vanishes(ring) {
+        // With nothing beside it, how far that is is found out when its turn comes.
+        let distance = beside(complex, ring).map_or(geometry.area.sqrt(), |(_, distance)| distance);
+        let contact_at = |into: usize| Some((into, contact(complex, ring, into, marks)?));
+        let found = { neighbors }.find_map(contact_at);
+        return found.map(|(into, contact)| Collapse { into, contact, distance });
+    }
     if ring.len() > FEW {
         return nearest_first(geometry, neighbors).find_map(|into| {
             let contact =
                 if shadow.is_valid_fan(into) { contact(complex, ring, into, marks)? } else { return None };
             let distance = actual_error(ring, geometry, into, f64::INFINITY)?;
+            let distance = shadow.spread().map_or(distance, |spread| distance.min(spread));
             Some(Collapse { into, contact, distance })
         });
     }

@@ -81,6 +81,11 @@ impl Complex {
         self.triangles[slot as usize]
     }
 
+    /// Whether the triangle in `slot` is still there.
+    pub fn is_alive(&self, slot: u32) -> bool {
+        self.corners(slot) != GONE
+    }
+
     /// Slots in use and their triangles.
     pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 3])> {
         (0..).zip(self.triangles.iter().copied()).filter(|&(_, corners)| corners != GONE)

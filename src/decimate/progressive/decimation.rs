@@ -5,12 +5,14 @@ use super::choices::Choices;
 use super::classify::Class;
 use super::collapse::{Collapse, still_valid};
 use super::complex::Complex;
+use super::deviations::Deviations;
 use super::events::EventLog;
 use super::journal::{Counts, Journal};
 use super::proof::Proof;
 use super::queue::Queue;
 use super::split::Pieces;
-use super::turns::{Judge, Scratch, Turn, Verdict, judge_all, n_at_once};
+use super::turns::{Judge, REQUEUED_FROM, Scratch, Turn, Verdict, judge_all, n_at_once};
+use super::vanished::Vanished;
 use super::view::{Place, View};
 use super::wedges::Wedges;
 use super::{ProgressiveOptions, ProgressiveReport};
@@ -41,6 +43,8 @@ pub struct Decimation {
     /// Steps whose error is proven, step 0 included.
     pub(super) n_proven: u32,
     pub(super) accumulated: Accumulated,
+    pub(super) deviations: Deviations,
+    pub(super) vanished: Vanished,
     pub(super) queue: Queue,
     /// Vertices without a valid collapse: to be split once nothing else is left.
     pub(super) stuck: Queue,
@@ -106,6 +110,8 @@ impl Decimation {
             proof: None,
             n_proven: u32::from(settings.proves),
             accumulated: Accumulated::new(n_points),
+            deviations: Deviations::new(complex.n_slots()),
+            vanished: Vanished::default(),
             queue: Queue::new(n_points),
             stuck: Queue::new(n_points),
             choices: Choices::new(n_points),
@@ -250,6 +256,7 @@ impl Decimation {
 
     /// Looks at `v`, whose star has changed; where that is large and waits for its turn, only when an eighth of it may have changed.
     pub(super) fn evaluate_changed(&mut self, v: u32) {
+        self.choices.forget(v);
         let n_changes = &mut self.n_changes[v as usize];
         let valence = self.complex.star(v).len();
         *n_changes += 1;
@@ -345,9 +352,7 @@ impl Decimation {
                     Some(collapse)
                 };
                 match collapse {
-                    Some(collapse) => {
-                        self.collapse(collapse);
-                    }
+                    Some(collapse) => self.collapse_or_wait(v, collapse, queued),
                     None => {
                         self.choices.forget(v);
                         self.queue.set(v, queued);
@@ -355,6 +360,20 @@ impl Decimation {
                 }
             }
             _ => self.set_aside(v),
+        }
+    }
+
+    /// Collapses the vertex at hand. The last triangle of a part waits until it is the turn of its distance from the rest.
+    fn collapse_or_wait(&mut self, v: u32, collapse: Collapse, queued: f64) {
+        match self.distance_of_last() {
+            Some(distance) if distance > queued * REQUEUED_FROM + f64::from(f32::MIN_POSITIVE) => {
+                let into = self.view.ring.vertices[collapse.into];
+                self.choices.choose(v, into, (distance - self.accumulated.at(v)).max(0.0));
+                self.queue.set(v, distance);
+            }
+            _ => {
+                self.collapse(collapse);
+            }
         }
     }
 

@@ -1,16 +1,18 @@
 //! Error measures (section 4.3): distance to the average plane, to a line, and the edge length of a lone triangle.
 //!
-//! The error of a vertex is a local measure plus what deletions around it have left there (equation 5). The local measure
-//! only orders the queue. What is left behind is the *actual* distance between the star and the triangles that took its
-//! place, so the largest sum bounds the error of the mesh in the paper's sense: an estimate, no proof.
+//! The error of a vertex is a local measure plus what deletions around it have left there (equation 5). Both only order the queue.
+//! What a level states comes from a bound on the distance between each star and the triangles that took its place, see
+//! [`super::deviations`].
 
 use super::classify::{Class, Geometry};
 use super::ring::Ring;
-use crate::geometry::distance::{point_segment_distance_sq, point_triangle_distance_sq};
-use crate::geometry::vector::{Vector, cross, dot, length, length_sq, midpoint, sub};
+use crate::geometry::distance::{nearest_parameter, point_segment_distance_sq, point_triangle_distance_sq};
+use crate::geometry::vector::{Vector, add_scaled, cross, dot, length, length_sq, sub};
 
-/// Stars of at most this many triangles are compared with their fans edge by edge.
+/// Of stars of at most this many triangles, all fans are tried.
 pub const FEW: usize = 24;
+/// Stars of more triangles are not compared with their fans edge by edge.
+const MANY: usize = 128;
 
 /// Distance of the vertex to what its deletion would leave, by its class. O(1) after [`Geometry::gather`].
 pub fn local_error(class: Class, ring: &Ring, geometry: &Geometry) -> f64 {
@@ -33,70 +35,64 @@ pub fn vanishes(ring: &Ring) -> bool {
     ring.len() == 1 || (ring.len() == 2 && ring.is_cycle())
 }
 
-/// Distance between the star and the triangles that the collapse into neighbour `into` leaves, or nothing where that is
-/// not below `limit`: of the deleted vertex from the new triangles, as in the paper; of the middle of each new edge from the old
-/// ones, which tells of saddles that the vertex lies in the middle of; and on the boundary, of the vertex from the new boundary.
-/// O(valence^2) for the few triangles that most stars have, near O(valence) in practice; O(valence) for others, where new
-/// edges are left out.
+/// Bound on the distance between the star and the fan that the collapse into neighbour `into` leaves, both ways, or nothing where that
+/// is not below `limit`. O(valence^2); O(1) for more than [`MANY`] triangles, where the bound is the length of the edge.
+///
+/// A map takes the star onto the fan and keeps the ring. The vertex goes to the nearest point of the fan, on the boundary to that of
+/// the new boundary edge. The edge from the vertex to a neighbour crosses the fan's edges between the two in turn, each at the nearest
+/// point. No point moves farther than one of these; the argument is that of [`crate::bound::certified`]. A second map takes the vertex
+/// straight along the edge that collapses.
 pub fn actual_error(ring: &Ring, geometry: &Geometry, into: usize, limit: f64) -> Option<f64> {
-    if vanishes(ring) {
-        let size = geometry.area.sqrt();
-        return (size < limit).then_some(size);
+    let along = length(sub(geometry.points[into], geometry.apex));
+    let limit = limit.min(along.next_up());
+    if ring.len() > MANY {
+        return (along < limit).then_some(along);
     }
+    let (nearest, mut largest_sq) = image_of_vertex(ring, geometry, into);
+    let n_others = geometry.points.len() - 1;
     let limit_sq = limit * limit;
-    let points = &geometry.points;
-    let target = points[into];
-    let fan = fan_of(ring, into).map(|[i, j]| [target, points[i], points[j]]);
-    let to_fan = |least: f64, triangle| least.min(point_triangle_distance_sq(geometry.apex, &triangle));
-    let mut largest_sq = fan.fold(f64::INFINITY, to_fan);
-    if !ring.is_cycle() {
-        let new_boundary = [points[0], points[points.len() - 1]];
-        largest_sq = largest_sq.max(point_segment_distance_sq(geometry.apex, new_boundary));
-    }
-    if ring.len() <= FEW {
-        for (j, &point) in points.iter().enumerate() {
+    for j in 1..=n_others {
+        // One of the two ranges is empty.
+        let (after, before) = (nearest + 1..j, (j + 1..=nearest).rev());
+        let spoke = [geometry.apex, neighbor(geometry, into, j)];
+        let mut start = 0.0;
+        for k in after.chain(before) {
             if largest_sq >= limit_sq {
-                return None;
+                break;
             }
-            if j != into && !ring.are_adjacent(into, j) {
-                let first = sector_between(ring, into, j);
-                largest_sq =
-                    distance_to_star_sq(ring, geometry, (midpoint(target, point), first), largest_sq);
-            }
+            let edge = [geometry.points[into], neighbor(geometry, into, k)];
+            let at = nearest_parameter(spoke, edge);
+            start = if at.is_nan() { start } else { at.clamp(start, 1.0) };
+            let crossing = add_scaled(spoke[0], start, sub(spoke[1], spoke[0]));
+            largest_sq = largest_sq.max(point_segment_distance_sq(crossing, edge));
         }
     }
-    (largest_sq < limit_sq).then_some(largest_sq.sqrt())
+    let error = largest_sq.sqrt();
+    Some(if error < limit { error } else { along }).filter(|&error| error < limit)
 }
 
-/// Triangle of the star in the middle of the shorter way from neighbour `i` to `j`: the middle of the edge between them is usually
-/// near it.
-fn sector_between(ring: &Ring, i: usize, j: usize) -> usize {
-    let (low, high) = (i.min(j), i.max(j));
-    let n = ring.len();
-    if !ring.is_cycle() || 2 * (high - low) <= n {
-        low + (high - low) / 2
-    } else {
-        (high + (n - (high - low)) / 2) % n
-    }
+/// The `k`-th neighbour after neighbour `into`.
+fn neighbor(geometry: &Geometry, into: usize, k: usize) -> Vector {
+    geometry.points[(into + k) % geometry.points.len()]
 }
 
-/// Squared distance between a point and the star, at least `floor_sq`: the search ends with the first triangle that near, and begins
-/// at the one given with the point.
-fn distance_to_star_sq(
-    ring: &Ring,
-    geometry: &Geometry,
-    (point, first): (Vector, usize),
-    floor_sq: f64,
-) -> f64 {
-    let mut least_sq = f64::INFINITY;
-    for i in (first..ring.len()).chain(0..first) {
-        let triangle = [geometry.apex, geometry.points[i], geometry.points[ring.next(i)]];
-        least_sq = least_sq.min(point_triangle_distance_sq(point, &triangle));
-        if least_sq <= floor_sq {
-            return floor_sq;
-        }
+/// The triangle of the fan that the vertex goes into, by the first of the two neighbours after `into` that it has, and the squared
+/// distance there.
+fn image_of_vertex(ring: &Ring, geometry: &Geometry, into: usize) -> (usize, f64) {
+    let target = geometry.points[into];
+    let n_others = geometry.points.len() - 1;
+    if !ring.is_cycle() {
+        // The fan's triangle at the new boundary edge is the last one or the first, by the end of the chain that is the target.
+        let (nearest, end) = if into == 0 { (n_others - 1, n_others) } else { (1, 1) };
+        let boundary = [target, neighbor(geometry, into, end)];
+        return (nearest, point_segment_distance_sq(geometry.apex, boundary));
     }
-    least_sq
+    let distance_sq = |k: usize| {
+        let [a, b] = [k, k + 1].map(|k| neighbor(geometry, into, k));
+        point_triangle_distance_sq(geometry.apex, &[target, a, b])
+    };
+    let distances_sq = (1..n_others).map(|k| (k, distance_sq(k)));
+    distances_sq.fold((1, f64::INFINITY), |least, next| if next.1 < least.1 { next } else { least })
 }
 
 /// Pairs of neighbours that make up a fan from neighbour `into`: the triangles of the star that survive the collapse.

@@ -15,6 +15,7 @@ pub mod classify;
 pub mod collapse;
 pub mod complex;
 pub mod decimation;
+pub mod deviations;
 pub mod error;
 pub mod events;
 pub mod journal;
@@ -27,6 +28,7 @@ pub mod shadow;
 pub mod split;
 mod steps;
 mod turns;
+pub mod vanished;
 mod view;
 pub mod wedges;
 

@@ -42,7 +42,10 @@ impl Proof {
         hole.gather(surface, ring.center).ok()?;
         let target = hole.ring.iter().position(|&r| r == ring.vertices[into])?;
         fill_with_fan(hole, target, filling);
-        if filling.triangles.len() + 2 != hole.n_ring() || filling.triangles.is_empty() {
+        if filling.triangles.len() + 2 != hole.n_ring()
+            || filling.triangles.is_empty()
+            || is_lid(surface, hole)
+        {
             return None;
         }
         Some(match certified.change(Replacement { surface, hole, filling }, limit, transfer) {
@@ -84,6 +87,12 @@ impl Plan<'_> {
         surface.compact();
         true
     }
+}
+
+/// Whether the fan is one triangle with the corners of another, in either orientation: the two would share all edges, and a chain from
+/// one to the other would not tell which it crosses.
+fn is_lid(surface: &Surface, hole: &Hole) -> bool {
+    hole.closed && hole.n_ring() == 3 && surface.has_triangle([hole.ring[0], hole.ring[1], hole.ring[2]])
 }
 
 /// The fan from ring vertex `target`: as the collapse leaves it, over the order that the hole has.

@@ -141,6 +141,13 @@ impl Shadow {
         (highest < limit).then_some(highest)
     }
 
+    /// What the heights of the vertex and its neighbours spread over, if the star is a height field: no valid fan is higher over it. O(valence).
+    pub fn spread(&self) -> Option<f64> {
+        let heights = self.points.iter().map(|point| point.height);
+        let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+        self.is_height_field.then_some(high - low)
+    }
+
     /// Height of the fan over the vertex.
     fn height_at_vertex(&self, into: usize) -> f64 {
         let n = self.points.len();

@@ -7,15 +7,27 @@ use super::error::vanishes;
 use super::events::{Event, EventKind};
 use super::proof::AboveLimit;
 use super::ring::Ring;
+use super::vanished::{Moves, Piece, beside, of_star as corners_of_star};
 use super::view::View;
+
+/// What a collapse leaves behind.
+struct Departure {
+    /// Where pieces go that have vanished before, and this star if nothing is beside it.
+    moves: Moves,
+    /// If the star vanishes: a triangle beside it that stands for it now.
+    host: Option<u32>,
+    /// Bound on the distance between the input's points that the star stands for and what stands for them then.
+    bound: f64,
+}
 
 impl Decimation {
     /// Takes the vertex at hand along an edge, unless the error would be too large; whether it did.
     pub(super) fn collapse(&mut self, Collapse { into, contact, distance }: Collapse) -> bool {
+        let Departure { moves, host, bound } = self.plan_departure(into, distance);
         let View { ring, class, .. } = &self.view;
         let keeps_topology = contact == Contact::None && !vanishes(ring) && *class != Class::CrackTip;
         let max_error = self.settings.max_error;
-        let estimate = self.accumulated.after(ring, distance) + self.settings.rounding;
+        let estimate = bound.max(moves.bound) + self.settings.rounding;
         let plan = match &mut self.proof {
             Some(proof) if keeps_topology => proof.plan(ring, into, max_error),
             _ => None,
@@ -32,6 +44,10 @@ impl Decimation {
         let ring = std::mem::take(&mut self.view.ring);
         self.accumulated.distribute(&ring, distance);
         self.record_collapse(&ring, into, error);
+        self.deviations.set_star(&ring, if is_proven { bound.min(error) } else { bound });
+        host.iter().for_each(|&host| self.deviations.raise(host, bound));
+        self.vanished.carry_out(&ring, moves);
+        self.vanished.follow(&self.complex, &ring, host);
         if is_proven {
             self.n_proven = self.journal.n_steps() + 1;
         }
@@ -41,6 +57,35 @@ impl Decimation {
         }
         self.view.ring = ring;
         true
+    }
+
+    /// What the collapse of the vertex at hand into neighbour `into` leaves, of which the star is this far at most.
+    fn plan_departure(&mut self, into: usize, distance: f64) -> Departure {
+        let Self { complex, vanished, deviations, journal, view: View { ring, .. }, .. } = self;
+        // As long as the proof lasts, no triangle is farther from the input than it says.
+        let proven = if self.proof.is_some() { journal.recorder.error() } else { f64::INFINITY };
+        let of_star = deviations.of_star(ring).min(proven);
+        if !vanishes(ring) {
+            let moves = vanished.moves_to_fan(complex, ring, into);
+            return Departure { moves, host: None, bound: of_star + distance };
+        }
+        match beside(complex, ring) {
+            Some((host, distance)) => {
+                let moves = vanished.moves_beside(complex, ring, host);
+                Departure { moves, host: Some(host), bound: of_star + distance }
+            }
+            None => {
+                let own = Piece { corners: corners_of_star(complex, ring), bound: of_star };
+                Departure { moves: vanished.moves_away(complex, ring, own), host: None, bound: of_star }
+            }
+        }
+    }
+
+    /// If the vertex at hand is in the last triangle of a part: a bound on how far that is from the rest of the mesh.
+    pub(super) fn distance_of_last(&mut self) -> Option<f64> {
+        let View { ring, .. } = &self.view;
+        let is_last = vanishes(ring) && beside(&self.complex, ring).is_none();
+        is_last.then(|| self.plan_departure(0, 0.0).moves.bound)
     }
 
     /// History, operations and mesh.

@@ -16,7 +16,7 @@ use super::wedges::Wedges;
 use rayon::prelude::*;
 
 /// A vertex goes back to the queue when its error is found to be so much larger than the one it was queued with.
-const REQUEUED_FROM: f64 = 1.05;
+pub(super) const REQUEUED_FROM: f64 = 1.05;
 /// One turn at once for so many vertices in the queue: the order is off by less than half a percent of them.
 const QUEUED_PER_TURN: usize = 256;
 /// Most turns at once.

@@ -55,7 +55,7 @@ export class NephFile {
       return bytes.buffer.slice(bytes.byteOffset + offset, bytes.byteOffset + offset + length);
     };
     const levels = new Levels(
-      new Float64Array(table(Kind.errors)),
+      new Float64Array(table(Kind.errors)).map((error) => (error === Number.MAX_VALUE ? Infinity : error)),
       new Uint32Array(table(Kind.simplexCounts)),
       new Uint32Array(table(Kind.vertexCounts)),
       Float64Array.from(new BigUint64Array(table(Kind.runOffsets)), Number),

@@ -113,7 +113,7 @@ export class Curve {
     const all = Array.from(levels.errors.keys());
     this.svg.setAttribute("aria-label", `Error of ${all.length} levels against their ${simplices}`);
     const percent = (level: number) => (100 * levels.errors[level]) / (diagonal || 1);
-    const drawn = all.filter((level) => levels.errors[level] > 0 && levels.counts[level] > 0);
+    const drawn = all.filter((level) => levels.errors[level] > 0 && Number.isFinite(levels.errors[level]) && levels.counts[level] > 0);
     const [left, right] = [MARGIN.left, width - MARGIN.right];
     const [top, bottom] = [MARGIN.top, height - MARGIN.bottom];
     this.x = new Axis(all.map((level) => Math.max(1, levels.counts[level])), left, right);
@@ -149,6 +149,8 @@ export class Curve {
     this.marker.replaceChildren();
     if (!this.subject) return;
     const { levels, diagonal } = this.subject;
+    // A level without triangles states no finite error and has no place here.
+    if (!Number.isFinite(levels.errors[this.level])) return;
     const x = this.x.at(Math.max(1, levels.counts[this.level]));
     const y = this.y.at(Math.max(Number.MIN_VALUE, (100 * levels.errors[this.level]) / (diagonal || 1)));
     const { clientHeight: height } = this.place;

@@ -213,9 +213,9 @@ function sliderAt(levels: Levels, error: number): number {
   return Math.round(SLIDER_END * Math.min(1, Math.log(error / least) / Math.log(most / least)));
 }
 
-/** The least error above none, and the largest. */
+/** The least error above none, and the largest that is finite. */
 function ends({ errors }: Levels): [number, number] {
-  const most = errors[errors.length - 1];
+  const most = errors.findLast(Number.isFinite) ?? 0;
   const least = errors.find((error) => error > 0) ?? 1;
   return most > 0 ? [least, most] : [1, 1];
 }
