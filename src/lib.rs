@@ -53,7 +53,8 @@ pub use mesh::{RepairReport, TetrahedronRepairReport};
 pub use nephrite_formats::{Attribute, MeshFault, ScalarType, TetrahedronMesh, TriangleMesh};
 pub use progressive_mesh::{Encoded, ProgressiveMesh, STREAM_HEADER_BYTES, StreamError};
 pub use query::{
-    CurvePoint, Cut, Delta, INFLECTION_RATIO, Landing, Lod, Picker, Projection, QueryError, Simplex, View,
+    CurvePoint, Cut, Delta, INFLECTION_RATIO, Landing, Lod, Picker, Projection, QueryError, Replayed,
+    Simplex, View,
 };
 pub use reprove::{ErrorTable, ReproveError};
 pub use store::{
