@@ -19,7 +19,8 @@ impl Attribute {
         self.bytes.chunks_exact(self.scalar.size_bytes()).map(|bytes| self.scalar.number(bytes))
     }
 
-    /// An attribute from numbers, each made the nearest value of the type; `NaN` becomes zero in integers.
+    /// An attribute from numbers, each made the nearest value of the type; `NaN` becomes zero in
+    /// integers.
     pub fn from_values(
         name: impl Into<String>,
         scalar: ScalarType,
@@ -47,15 +48,15 @@ impl Attribute {
         Self { name: name.into(), scalar, n_components, bytes }
     }
 
-    /// The same texture coordinates with V counted from the other end of the picture: glTF and meshes
-    /// in memory count from the top, all other formats from the bottom.
+    /// The same texture coordinates with V counted from the other end of the picture: glTF and
+    /// meshes in memory count from the top, all other formats from the bottom.
     pub(crate) fn with_v_turned(&self) -> Self {
         let values = self.values().enumerate().map(|(i, value)| if i % 2 == 1 { 1.0 - value } else { value });
         Self::from_values(&*self.name, self.scalar, self.n_components, values)
     }
 
-    /// Texture coordinates for text, V counted from the bottom: as few digits as give the same `f32` when
-    /// they are turned back.
+    /// Texture coordinates for text, V counted from the bottom: as few digits as give the same
+    /// `f32` when they are turned back.
     pub(crate) fn texcoord_texts(&self) -> impl Iterator<Item = String> {
         self.values().enumerate().map(|(i, value)| {
             if i % 2 == 0 {
@@ -70,7 +71,8 @@ impl Attribute {
         })
     }
 
-    /// As [`Attribute::values`], integers scaled so that the type's largest value is 1: the meaning of integer colours.
+    /// As [`Attribute::values`], integers scaled so that the type's largest value is 1: the meaning
+    /// of integer colours.
     pub(crate) fn unit_values(&self) -> impl Iterator<Item = f64> {
         let largest = match self.scalar {
             ScalarType::I8 => i8::MAX.into(),

@@ -78,7 +78,8 @@ impl Change {
 }
 
 impl Fate {
-    /// The clauses behind "is" or "are" of what is worth a note; none if the item is kept as it was.
+    /// The clauses behind "is" or "are" of what is worth a note; none if the item is kept as it
+    /// was.
     pub(crate) fn clauses(&self, is_of_many: bool) -> Vec<String> {
         match self {
             Self::LeftOut { reason } if reason.is_empty() => vec!["left out".to_owned()],

@@ -1,8 +1,10 @@
-//! File coordinates made into single-precision positions about a local origin, by the rule stated in [`crate::mesh`].
+//! File coordinates made into single-precision positions about a local origin, by the rule stated
+//! in [`crate::mesh`].
 //!
-//! The naive way, `x as f32`, moves a vertex at 10,000,000 m by up to half a metre. Subtracting the centre of the bounding
-//! box first keeps the detail, but moving every mesh would make files with plain `f32` coordinates inexact for nothing.
-//! So both are tried and the displacement of the worst vertex decides.
+//! The naive way, `x as f32`, moves a vertex at 10,000,000 m by up to half a metre. Subtracting the
+//! centre of the bounding box first keeps the detail, but moving every mesh would make files with
+//! plain `f32` coordinates inexact for nothing. So both are tried and the displacement of the worst
+//! vertex decides.
 
 use crate::error::{MeshError, Place};
 use crate::unused::drop_bad_points;
@@ -102,10 +104,12 @@ pub(crate) fn from_f64(points: &[[f64; 3]]) -> Result<Coordinates, MeshError> {
     Ok(if gains { about_centre } else { about_zero })
 }
 
-/// As [`from_f64`], for numbers read from text: the origin stays zero where the digits are no more than `f32` holds.
+/// As [`from_f64`], for numbers read from text: the origin stays zero where the digits are no more
+/// than `f32` holds.
 ///
-/// `0.1` is not exact in `f32`, but it is the shortest text that means the nearest `f32`, as it is for all numbers of up to
-/// six digits and for everything that was printed from `f32`. Nothing that such digits tell apart is lost about zero.
+/// `0.1` is not exact in `f32`, but it is the shortest text that means the nearest `f32`, as it is
+/// for all numbers of up to six digits and for everything that was printed from `f32`. Nothing that
+/// such digits tell apart is lost about zero.
 ///
 /// # Errors
 ///
@@ -138,8 +142,8 @@ pub(crate) fn from_f32(positions: Vec<[f32; 3]>) -> Result<Coordinates, MeshErro
     Ok(Coordinates { origin: [0.0; 3], positions, rounding: 0.0 })
 }
 
-/// Finite `f32` positions under a translation in `f64`: exact as they are, with the translation as origin, unless the
-/// sums are exact in `f32` and the origin zero serves.
+/// Finite `f32` positions under a translation in `f64`: exact as they are, with the translation as
+/// origin, unless the sums are exact in `f32` and the origin zero serves.
 ///
 /// # Errors
 ///
@@ -194,7 +198,8 @@ fn round_about(points: &[[f64; 3]], origin: [f64; 3]) -> Coordinates {
         let mut position = [0.0_f32; 3];
         let mut moved_sq = 0.0;
         for axis in 0..3 {
-            // difference + rest is point - origin without rounding, and so is what the position misses of it.
+            // difference + rest is point - origin without rounding, and so is what the position
+            // misses of it.
             let (difference, rest) = two_sum(point[axis], -origin[axis]);
             position[axis] = nearest_f32(difference);
             let moved = (difference - f64::from(position[axis])) + rest;
@@ -203,8 +208,9 @@ fn round_about(points: &[[f64; 3]], origin: [f64; 3]) -> Coordinates {
         worst_sq = worst_sq.max(moved_sq);
         positions.push(position);
     }
-    // The factor covers the rounding of the squares and of the root, so that the result is an upper bound; a displacement
-    // whose square underflows is below every length that f32 can tell apart at the same place, but not zero.
+    // The factor covers the rounding of the squares and of the root, so that the result is an upper
+    // bound; a displacement whose square underflows is below every length that f32 can tell apart
+    // at the same place, but not zero.
     let rounding = worst_sq.sqrt() * (1.0 + 4.0 * f64::EPSILON);
     let underflowed = rounding == 0.0
         && points.iter().zip(&positions).any(|(point, position)| {
@@ -217,8 +223,8 @@ fn round_about(points: &[[f64; 3]], origin: [f64; 3]) -> Coordinates {
     }
 }
 
-/// Centre of the bounding box, to within a sixteenth of its sides: a number of few digits, the difference from which is
-/// exact in `f64` more often.
+/// Centre of the bounding box, to within a sixteenth of its sides: a number of few digits, the
+/// difference from which is exact in `f64` more often.
 fn bounding_centre(points: &[[f64; 3]]) -> [f64; 3] {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
@@ -235,13 +241,15 @@ fn bounding_centre(points: &[[f64; 3]]) -> [f64; 3] {
     })
 }
 
-/// The largest power of two that is not above a positive number, zero for zero and subnormal numbers.
+/// The largest power of two that is not above a positive number, zero for zero and subnormal
+/// numbers.
 fn power_of_two_below(value: f64) -> f64 {
     const EXPONENT_BITS: u64 = 0x7ff0_0000_0000_0000;
     f64::from_bits(value.to_bits() & EXPONENT_BITS)
 }
 
-/// `a + b` as a rounded sum and the exact rest (Knuth, The Art of Computer Programming 2, section 4.2.2, theorem B).
+/// `a + b` as a rounded sum and the exact rest (Knuth, The Art of Computer Programming 2, section
+/// 4.2.2, theorem B).
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
@@ -291,7 +299,8 @@ mod tests {
 
     #[test]
     fn a_shift_needs_a_gain_of_four() {
-        // All rounding is in x: about zero it is half a unit in the last place at x, about the centre at the half width.
+        // All rounding is in x: about zero it is half a unit in the last place at x, about the
+        // centre at the half width.
         let near = from_f64(&[[4.0 + 1e-9, 0.0, 0.0], [1.0, 0.0, 0.0]]).unwrap();
         assert_eq!(near.origin, [0.0; 3]);
         let far = from_f64(&[[400.1, 0.0, 0.0], [401.3, 0.0, 0.0]]).unwrap();

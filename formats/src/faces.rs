@@ -3,7 +3,8 @@
 use crate::FileReport;
 use crate::polygon::Triangulator;
 
-/// Faces in file order. Triangles are stored as such; polygons beside them, with their place in the order.
+/// Faces in file order. Triangles are stored as such; polygons beside them, with their place in the
+/// order.
 #[derive(Default)]
 pub(crate) struct Faces {
     triangles: Vec<[u32; 3]>,
@@ -16,7 +17,8 @@ pub(crate) struct Faces {
 struct Polygon {
     /// Triangles of the list that come before it in the file.
     n_triangles_before: usize,
-    /// End of its corners in the list of all polygons' corners; they begin where the previous polygon's end.
+    /// End of its corners in the list of all polygons' corners; they begin where the previous
+    /// polygon's end.
     corners_end: usize,
 }
 
@@ -44,8 +46,8 @@ impl Faces {
         }
     }
 
-    /// Appends the triangles of a strip: every three corners in a row, each second triangle turned over. Triangles with a
-    /// repeated corner join strips and are left out.
+    /// Appends the triangles of a strip: every three corners in a row, each second triangle turned
+    /// over. Triangles with a repeated corner join strips and are left out.
     pub(crate) fn push_strip(&mut self, strip: &[u32]) {
         if strip.len() < 3 {
             self.n_dropped += usize::from(!strip.is_empty());
@@ -74,7 +76,8 @@ impl Faces {
         [self.triangles.as_flattened_mut(), &mut self.polygon_corners]
     }
 
-    /// All faces as triangles in file order, polygons cut; every index must be below `positions.len()`. Counts go to `report`.
+    /// All faces as triangles in file order, polygons cut; every index must be below
+    /// `positions.len()`. Counts go to `report`.
     pub(crate) fn into_triangles(self, positions: &[[f32; 3]], report: &mut FileReport) -> Vec<[u32; 3]> {
         report.n_faces_dropped += self.n_dropped;
         report.n_polygons_triangulated += self.polygons.len();

@@ -5,7 +5,7 @@ use crate::MeshError;
 use crate::text::{Scanner, Style};
 
 /// Files that begin with certain bytes, and what they are called.
-const MAGICS: [(&[u8], &str); 37] = [
+const MAGICS: [(&[u8], &str); 42] = [
     (b"version https://git-lfs", "a pointer of Git LFS to the file itself"),
     (b"ISO-10303-21", "STEP"),
     (b"CDF\x01", "netCDF, as Exodus is"),
@@ -42,6 +42,11 @@ const MAGICS: [(&[u8], &str); 37] = [
     (b"ASTM-E57", "E57, a cloud of points"),
     (b"# .PCD", "PCD, a cloud of points"),
     (b"PK\x03\x04", "a zip archive"),
+    (b"\x89PNG", "a picture (PNG)"),
+    (b"\xFF\xD8\xFF", "a picture (JPEG)"),
+    (b"%PDF", "PDF"),
+    (b"Ogawa", "Alembic"),
+    (b"xof ", "DirectX X"),
     (b"\x1F\x8B\x08", "compressed by gzip"),
 ];
 
@@ -67,6 +72,9 @@ pub(crate) fn name_of(bytes: &[u8]) -> Option<&'static str> {
     }
     if is_utf_16(bytes) {
         return Some("text in UTF-16");
+    }
+    if bytes.starts_with(b"PK\x03\x04") && contains(beginning(bytes), b"3D/") {
+        return Some("3MF");
     }
     let text = root_element(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start());
     if text.starts_with(b"<VTKFile") {
@@ -147,7 +155,7 @@ mod tests {
 
     #[test]
     fn kinds_are_told_by_how_they_begin() {
-        let expected: [(&[u8], &str); 14] = [
+        let expected: [(&[u8], &str); 15] = [
             (b"ISO-10303-21;\nHEADER;\n", "STEP"),
             (b"\x89HDF\r\n\x1a\n\0\0\0 CGNSLibraryVersion", "CGNS"),
             (b"\x89HDF\r\n\x1a\n\0\0\0", "HDF5"),
@@ -162,6 +170,7 @@ mod tests {
             (b"(0 \"a mesh\")\n", "Fluent"),
             (b"\xFF\xFEv\0 \0", "UTF-16"),
             (b"PK\x03\x04\0\0", "zip"),
+            (b"PK\x03\x04\0\0 3D/3dmodel.model", "3MF"),
         ];
         for (bytes, name) in expected {
             let message = unread(bytes).to_string();

@@ -1,6 +1,7 @@
 //! Which format a file is in, and the way to its reader or writer.
 //!
-//! Contents are believed before extensions: a PLY file named `.obj` is read as PLY, and the report says so.
+//! Contents are believed before extensions: a PLY file named `.obj` is read as PLY, and the report
+//! says so.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -63,7 +64,8 @@ impl MeshFormat {
         Self::ALL.into_iter().find(|format| format.extension().eq_ignore_ascii_case(extension))
     }
 
-    /// The format of a file's contents, with the format that its extension names where the contents leave it open.
+    /// The format of a file's contents, with the format that its extension names where the contents
+    /// leave it open.
     ///
     /// Looks at no more than the beginning and the length.
     pub fn detect(bytes: &[u8], extension: Option<Self>) -> Option<Self> {
@@ -99,7 +101,8 @@ impl fmt::Display for MeshFormat {
 
 /// Reads a mesh file of any known format.
 ///
-/// Costs one read of the file and a few passes over its bytes; memory stays within a constant times its size.
+/// Costs one read of the file and a few passes over its bytes; memory stays within a constant times
+/// its size.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -141,8 +144,8 @@ fn read_file(path: &Path) -> Result<(TriangleMesh, FileReport), MeshError> {
     Ok((mesh, report))
 }
 
-/// The contents of a file, text in UTF-16 as UTF-8. The header of a binary STL file may begin with any
-/// bytes.
+/// The contents of a file, text in UTF-16 as UTF-8. The header of a binary STL file may begin with
+/// any bytes.
 fn in_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     if stl::length_of_binary(bytes) == Some(bytes.len() as u64) {
         Cow::Borrowed(bytes)
@@ -155,7 +158,8 @@ fn in_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
 ///
 /// # Errors
 ///
-/// Any [`MeshError`] about contents; also for glTF that refers to other files, as there is no folder to look in.
+/// Any [`MeshError`] about contents; also for glTF that refers to other files, as there is no
+/// folder to look in.
 pub fn read_mesh_bytes(bytes: &[u8], format: MeshFormat) -> Result<(TriangleMesh, FileReport), MeshError> {
     read_bytes(bytes, format, None)
 }
@@ -175,14 +179,15 @@ fn read_bytes(
     }
 }
 
-/// Writes a mesh in the format that the path's extension names (`ply`, `obj`, `stl`, `off` or `glb`).
+/// Writes a mesh in the format that the path's extension names (`ply`, `obj`, `stl`, `off` or
+/// `glb`).
 ///
 /// The file appears whole or not at all. The report tells what the format has no place for.
 ///
 /// # Errors
 ///
-/// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`], [`MeshError::InconsistentMesh`],
-/// [`MeshError::TooLargeForFormat`] or [`MeshError::Io`].
+/// [`MeshError::InFile`] with the file's name around [`MeshError::UnknownExtension`],
+/// [`MeshError::InconsistentMesh`], [`MeshError::TooLargeForFormat`] or [`MeshError::Io`].
 pub fn write_mesh(path: impl AsRef<Path>, mesh: &TriangleMesh) -> Result<FileReport, MeshError> {
     let path = path.as_ref();
     write_file(path, mesh).map_err(|error| error.in_file(path))

@@ -1,16 +1,19 @@
 //! The triangle mesh that readers produce and writers consume: flat arrays, nothing derived.
 //!
-//! Coordinates are stored as `f32` about a local origin kept in `f64`, chosen by one rule for every format:
+//! Coordinates are stored as `f32` about a local origin kept in `f64`, chosen by one rule for every
+//! format:
 //!
 //! 1. A file whose coordinates are all exact in `f32` gets the origin zero and loses nothing.
-//! 2. Text whose numbers have no more digits than `f32` holds (each is the shortest text of the nearest `f32`, as `0.1` is)
-//!    gets the origin zero too.
-//! 3. Otherwise both the origin zero and the centre of the bounding box are tried. The centre is taken only where it
-//!    makes the worst rounding more than four times smaller, as it does far from the origin; elsewhere a shift would gain
-//!    nothing.
-//! 4. A glTF scene whose vertices are all exact in `f32` but for one translation gets that translation as origin.
+//! 2. Text whose numbers have no more digits than `f32` holds (each is the shortest text of the
+//!    nearest `f32`, as `0.1` is) gets the origin zero too.
+//! 3. Otherwise both the origin zero and the centre of the bounding box are tried. The centre is
+//!    taken only where it makes the worst rounding more than four times smaller, as it does far
+//!    from the origin; elsewhere a shift would gain nothing.
+//! 4. A glTF scene whose vertices are all exact in `f32` but for one translation gets that
+//!    translation as origin.
 //!
-//! [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can include it.
+//! [`TriangleMesh::rounding`] states how far the worst vertex moved, so that an error bound can
+//! include it.
 
 use crate::fault::{Arrays, MeshFault};
 use std::borrow::Cow;
@@ -30,8 +33,8 @@ use std::borrow::Cow;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
-    /// Added to every position to give file coordinates; zero unless a shift makes the rounding much smaller
-    /// (the rule is in the [module's documentation](self)).
+    /// Added to every position to give file coordinates; zero unless a shift makes the rounding
+    /// much smaller (the rule is in the [module's documentation](self)).
     pub origin: [f64; 3],
     /// Vertex positions relative to `origin`, in mesh units.
     pub positions: Vec<[f32; 3]>,
@@ -39,14 +42,19 @@ pub struct TriangleMesh {
     pub triangles: Vec<[u32; 3]>,
     /// Per-vertex attributes, each of length `positions.len()`.
     pub attributes: Vec<Attribute>,
-    /// Largest distance, in mesh units, between a vertex as the file gave it and as it is stored here.
+    /// Largest distance, in mesh units, between a vertex as the file gave it and as it is stored
+    /// here.
     pub rounding: f64,
 }
 
 /// A named per-vertex attribute, kept byte for byte in the type the file gave it.
 ///
-/// The conventional names are `normal` (3 components), `color` (3 or 4) and `texcoord` (2); anything else keeps
-/// the name it had in the file.
+/// The conventional names are `normal` (3 components), `color` (3 or 4) and `texcoord` (2);
+/// anything else keeps the name it had in the file.
+///
+/// `texcoord` is where a picture is read: U counts from its left edge and V from its *top*, as in
+/// glTF. Readers and writers of OBJ, PLY and OFF, which count V from the bottom, turn it. Further
+/// sets of glTF are `texcoord_1` and so on.
 ///
 /// ```
 /// use nephrite_formats::{Attribute, ScalarType};
@@ -96,10 +104,11 @@ impl TriangleMesh {
         std::array::from_fn(|axis| self.origin[axis] + f64::from(position[axis]))
     }
 
-    /// Checks what the types leave open: indices in range, finite coordinates, a rounding that is a length, attributes of the
-    /// right length.
+    /// Checks what the types leave open: indices in range, finite coordinates, a rounding that is a
+    /// length, attributes of the right length.
     ///
-    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers and builds refuse those that do not.
+    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers and builds
+    /// refuse those that do not.
     ///
     /// # Errors
     ///
@@ -151,7 +160,8 @@ impl ScalarType {
         }
     }
 
-    /// A little-endian value as a number, exact for every type. `bytes` has [`size_bytes`](Self::size_bytes) of them.
+    /// A little-endian value as a number, exact for every type. `bytes` has
+    /// [`size_bytes`](Self::size_bytes) of them.
     pub(crate) fn number(self, bytes: &[u8]) -> f64 {
         let mut wide = [0; 8];
         wide[..bytes.len()].copy_from_slice(bytes);

@@ -33,7 +33,7 @@ fn inconsistent_meshes_are_refused() {
         }
     }
     let error = write_mesh(folder.path().join("a.ply"), &no_such_vertex).unwrap_err();
-    assert!(error.to_string().ends_with("an index of triangle 2 is 4, expected 4"), "{error}");
+    assert!(error.to_string().ends_with("triangle 2 names vertex 4, the mesh has 4 vertices"), "{error}");
 }
 
 #[test]

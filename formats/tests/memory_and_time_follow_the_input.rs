@@ -181,6 +181,38 @@ fn a_position_with_a_million_normals() {
 }
 
 #[test]
+fn a_million_names() {
+    let _guard = alone();
+    let square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for keyword in ["g", "usemtl", "o", "mtllib", "s"] {
+        let names: String = (0..200_000).map(|i| format!("{keyword} {i}\n")).collect();
+        let (_, report) = read_within(format!("{square}{names}").as_bytes(), MeshFormat::Obj).unwrap();
+        assert_eq!((report.items().len(), report.notes().len()), (200_000 - usize::from(keyword == "s"), 1));
+    }
+    let words: String = (0..200_000).map(|i| format!("x{i}\n")).collect();
+    assert_eq!(read_within((words + square).as_bytes(), MeshFormat::Obj).unwrap().1.notes().len(), 1);
+}
+
+#[test]
+fn a_vertex_with_a_million_texture_coordinates() {
+    let _guard = alone();
+    let n_faces = 200_000;
+    let mut text = format!(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face {n_faces}\n\
+         property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+    );
+    for i in 0..n_faces {
+        writeln!(text, "3 0 1 2 6 {i} 0 {i} 0 {i} 0").unwrap();
+    }
+    let (mesh, _) = read_within(text.as_bytes(), MeshFormat::Ply).unwrap();
+    assert_eq!(mesh.positions.len(), 3 * n_faces);
+    // Vertices that come behind the faces cost nothing before they are there.
+    let claim = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n\
+        element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2 6 0 0 0 0 0 0\n";
+    assert!(read_within(claim.as_bytes(), MeshFormat::Ply).is_err());
+}
+
+#[test]
 fn json_nested_deeply() {
     let _guard = alone();
     for open in ["[", "{\"a\":"] {

@@ -1,4 +1,5 @@
-//! Accessors: typed views of buffers, copied out tightly packed after every offset has been checked.
+//! Accessors: typed views of buffers, copied out tightly packed after every offset has been
+//! checked.
 
 use std::borrow::Cow;
 
@@ -78,7 +79,8 @@ impl<'a> Source<'a> {
     ///
     /// # Errors
     ///
-    /// [`MeshError`] with the accessor at fault, for anything that reaches outside of what holds it.
+    /// [`MeshError`] with the accessor at fault, for anything that reaches outside of what holds
+    /// it.
     pub(crate) fn elements(&self, index: usize) -> Result<Elements<'_>, MeshError> {
         let accessor = get(&self.document.accessors, index, "accessor", Place::File)?;
         let place = Place::item("accessor", index);

@@ -53,13 +53,15 @@ impl Affine {
         std::array::from_fn(|axis| x[axis] * vector[0] + y[axis] * vector[1] + z[axis] * vector[2])
     }
 
-    /// Six times the signed volume of the image of the unit simplex; negative where the map mirrors.
+    /// Six times the signed volume of the image of the unit simplex; negative where the map
+    /// mirrors.
     pub(crate) fn determinant(&self) -> f64 {
         let [x, y, z] = self.linear;
         dot(x, cross(y, z))
     }
 
-    /// The map of normals: the inverse transpose, times the size of the determinant so that flat maps have one too.
+    /// The map of normals: the inverse transpose, times the size of the determinant so that flat
+    /// maps have one too.
     pub(crate) fn of_normals(&self) -> Self {
         let [x, y, z] = self.linear;
         let sign = if self.determinant() < 0.0 { -1.0 } else { 1.0 };
@@ -140,7 +142,8 @@ mod tests {
         let (u, v) = ([1.0, 2.0, 0.5], [0.0, 1.0, -3.0]);
         let normal = shear.of_normals().turn(cross(u, v));
         assert!(dot(normal, shear.turn(u)).abs() < 1e-12 && dot(normal, shear.turn(v)).abs() < 1e-12);
-        // The map mirrors; a normal must not go through the surface, so it keeps its side: that of a direction off the plane.
+        // The map mirrors; a normal must not go through the surface, so it keeps its side: that of
+        // a direction off the plane.
         let off = cross(u, v);
         assert!(dot(normal, shear.turn(off)) > 0.0);
     }

@@ -1,4 +1,5 @@
-//! Where a document's bytes come from: the GLB chunk, `data:` URIs, and files below the document's folder.
+//! Where a document's bytes come from: the GLB chunk, `data:` URIs, and files below the document's
+//! folder.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -20,11 +21,13 @@ pub(crate) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Gathers the bytes. Every file is read once, however many buffers name it, so that no more is held than there is.
+    /// Gathers the bytes. Every file is read once, however many buffers name it, so that no more is
+    /// held than there is.
     ///
     /// # Errors
     ///
-    /// [`MeshError::Reference`] for what is refused or missing, [`MeshError::Truncated`] for too few bytes.
+    /// [`MeshError::Reference`] for what is refused or missing, [`MeshError::Truncated`] for too
+    /// few bytes.
     pub(crate) fn load(
         buffers: &[Buffer],
         binary: Option<&'a [u8]>,

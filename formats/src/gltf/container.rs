@@ -20,8 +20,8 @@ impl<'a> Container<'a> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Truncated`] where a length reaches beyond what holds it, [`MeshError::Unsupported`] for another version,
-    /// [`MeshError::Missing`] without JSON.
+    /// [`MeshError::Truncated`] where a length reaches beyond what holds it,
+    /// [`MeshError::Unsupported`] for another version, [`MeshError::Missing`] without JSON.
     pub(crate) fn open(bytes: &'a [u8]) -> Result<Self, MeshError> {
         if !bytes.starts_with(MAGIC) {
             let json = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);

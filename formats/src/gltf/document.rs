@@ -1,4 +1,5 @@
-//! The parts of a glTF document that geometry needs, as its JSON holds them. Nothing is checked but types.
+//! The parts of a glTF document that geometry needs, as its JSON holds them. Nothing is checked but
+//! types.
 
 use std::collections::BTreeMap;
 

@@ -5,8 +5,8 @@ use super::affine::Affine;
 use super::document::{Instancing, Node};
 use crate::error::{MeshError, Place};
 
-/// The map of each copy within its node: scale, then rotation, then translation. One copy where it lies
-/// if none of them is given.
+/// The map of each copy within its node: scale, then rotation, then translation. One copy where it
+/// lies if none of them is given.
 ///
 /// # Errors
 ///

@@ -11,8 +11,9 @@ pub(crate) struct Block {
 
 /// Joins the attributes of blocks, in the order of the blocks.
 ///
-/// An attribute keeps its type where all blocks that have it agree; otherwise it becomes `f32` with as many components as
-/// the widest. What is absent gets the neutral value: one for colours, zero for anything else.
+/// An attribute keeps its type where all blocks that have it agree; otherwise it becomes `f32` with
+/// as many components as the widest. What is absent gets the neutral value: one for colours, zero
+/// for anything else.
 pub(crate) fn join(blocks: &[Block], report: &mut FileReport) -> Vec<Attribute> {
     let mut names: Vec<&str> = Vec::new();
     for attribute in blocks.iter().flat_map(|block| &block.attributes) {

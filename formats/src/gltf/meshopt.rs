@@ -1,7 +1,7 @@
 //! Buffer views compressed by `EXT_meshopt_compression`, decoded without trust in a single byte.
 //!
-//! Reference: A. Kapoulkine: "EXT_meshopt_compression" (Khronos Group, glTF extensions), appendices A
-//! (bitstream) and B (filters). The words of the code are those of the appendices.
+//! Reference: A. Kapoulkine: "EXT_meshopt_compression" (Khronos Group, glTF extensions), appendices
+//! A (bitstream) and B (filters). The words of the code are those of the appendices.
 
 use super::document::{Compression, Filter, Mode};
 use crate::error::{MeshError, Place};
@@ -13,8 +13,8 @@ pub(crate) const MOST_PER_BYTE: u64 = 64;
 ///
 /// # Errors
 ///
-/// [`MeshError::Unexpected`] for bytes that are no such stream, [`MeshError::CountTooLarge`] for more
-/// elements than they can hold.
+/// [`MeshError::Unexpected`] for bytes that are no such stream, [`MeshError::CountTooLarge`] for
+/// more elements than they can hold.
 pub(crate) fn decode(compressed: &[u8], layout: &Compression, place: Place) -> Result<Vec<u8>, MeshError> {
     let broken = |found: &str| MeshError::Unexpected {
         place,
@@ -83,7 +83,8 @@ impl<'a> Stream<'a> {
     }
 }
 
-/// Mode 0: elements of `stride` bytes as deltas, each byte of the element in a data block of its own.
+/// Mode 0: elements of `stride` bytes as deltas, each byte of the element in a data block of its
+/// own.
 fn attributes(compressed: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     const BLOCK_BYTES: usize = 8192;
     const TAIL_BYTES: usize = 32;

@@ -17,7 +17,8 @@ pub(crate) fn attribute_name(semantic: &str) -> Option<String> {
     (is_set && is_known).then(|| semantic.to_ascii_lowercase())
 }
 
-/// A semantic of glTF that an attribute's name stands for, without its set number, and the full semantic.
+/// A semantic of glTF that an attribute's name stands for, without its set number, and the full
+/// semantic.
 pub(crate) fn semantic(name: &str) -> Option<(&'static str, String)> {
     match name {
         "normal" => return Some(("NORMAL", "NORMAL".into())),

@@ -13,8 +13,8 @@ use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 ///
 /// # Errors
 ///
-/// [`MeshError::Missing`] without positions, [`MeshError::Unexpected`] for positions of other than three components,
-/// [`MeshError::Unsupported`] where they are compressed.
+/// [`MeshError::Missing`] without positions, [`MeshError::Unexpected`] for positions of other than
+/// three components, [`MeshError::Unsupported`] where they are compressed.
 pub(crate) fn positions(
     source: &Source<'_>,
     primitive: &Primitive,
@@ -56,7 +56,8 @@ pub(crate) fn attributes(
     report: &mut FileReport,
 ) -> Result<Vec<Attribute>, MeshError> {
     let mut attributes: Vec<Attribute> = Vec::new();
-    // Upper-case letters sort before the underscore, so glTF's own semantics come first and win over an application's.
+    // Upper-case letters sort before the underscore, so glTF's own semantics come first and win
+    // over an application's.
     for (semantic, &accessor) in &primitive.attributes {
         if semantic == "POSITION" {
             continue;
@@ -131,8 +132,8 @@ fn turned(elements: &Elements<'_>, map: &Affine) -> Vec<f32> {
     values
 }
 
-/// Triangles of a primitive over its own vertices, turned over where the map mirrors. Primitives of points and lines are
-/// counted as ignored, corners beyond the last whole triangle as dropped.
+/// Triangles of a primitive over its own vertices, turned over where the map mirrors. Primitives of
+/// points and lines are counted as ignored, corners beyond the last whole triangle as dropped.
 ///
 /// # Errors
 ///

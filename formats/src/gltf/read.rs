@@ -284,7 +284,8 @@ impl<'a> Assembly<'a> {
         report.change(id, Change::Filled { n_vertices: n_filled, value: COMPUTED });
     }
 
-    /// The translation that moves every vertex, if nothing else does and the positions are exact in `f32`.
+    /// The translation that moves every vertex, if nothing else does and the positions are exact in
+    /// `f32`.
     fn common_translation(&self) -> Option<[f64; 3]> {
         let first = self.maps.first()?;
         let is_common = first.is_translation() && self.maps.iter().all(|map| map == first);

@@ -14,13 +14,14 @@ pub(crate) struct Instance {
     pub node: Option<usize>,
 }
 
-/// All meshes of the default scene, in the order of a depth-first walk: of scene 0 where no default is named, of all
-/// root nodes where there is no scene, and every mesh as it is where there is no node.
+/// All meshes of the default scene, in the order of a depth-first walk: of scene 0 where no default
+/// is named, of all root nodes where there is no scene, and every mesh as it is where there is no
+/// node.
 ///
 /// # Errors
 ///
-/// [`MeshError::Unexpected`] for a node that is reached twice, as the nodes of glTF form trees; [`MeshError::IndexOutOfRange`],
-/// [`MeshError::Unsupported`].
+/// [`MeshError::Unexpected`] for a node that is reached twice, as the nodes of glTF form trees;
+/// [`MeshError::IndexOutOfRange`], [`MeshError::Unsupported`].
 pub(crate) fn instances(document: &Document) -> Result<Vec<Instance>, MeshError> {
     if document.nodes.is_empty() {
         let of_mesh = |mesh| Instance { mesh, map: Affine::IDENTITY, node: None };

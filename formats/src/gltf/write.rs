@@ -11,8 +11,9 @@ use crate::{Attribute, Change, FileReport, Kind, MeshError, MeshFormat, ScalarTy
 
 /// Writes a mesh with all its attributes.
 ///
-/// Names with a meaning in glTF get it where type and shape allow; others become an application's `_NAME`. glTF has no 32-bit
-/// integers and no `f64` for vertices: these become `f32`. Attributes of more than four components are split.
+/// Names with a meaning in glTF get it where type and shape allow; others become an application's
+/// `_NAME`. glTF has no 32-bit integers and no `f64` for vertices: these become `f32`. Attributes
+/// of more than four components are split.
 ///
 /// # Errors
 ///
@@ -159,7 +160,8 @@ fn to_f32(attribute: &Attribute) -> Attribute {
     Attribute::from_f32(attribute.name.clone(), attribute.n_components, attribute.values().map(nearest_f32))
 }
 
-/// A part for an attribute of one to four components; every element starts at a multiple of four bytes.
+/// A part for an attribute of one to four components; every element starts at a multiple of four
+/// bytes.
 fn attribute_part(semantic: String, attribute: &Attribute, is_normalized: bool) -> Part {
     let shape = ["SCALAR", "VEC2", "VEC3", "VEC4"][attribute.n_components as usize - 1];
     let code = match attribute.scalar {

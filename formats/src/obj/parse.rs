@@ -9,7 +9,8 @@ use crate::text::{Scanner, Style, parse_integer};
 /// A corner's index of a list it does not use.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// What an OBJ file lists. Indices count from 0 and are below the lengths of what they point at, or [`NONE`].
+/// What an OBJ file lists. Indices count from 0 and are below the lengths of what they point at, or
+/// [`NONE`].
 #[derive(Default)]
 pub(crate) struct Statements {
     pub positions: Vec<[f64; 3]>,

@@ -89,7 +89,8 @@ fn fill_normals(
 
 /// The mesh's vertices: distinct triples of position, texture coordinate and normal.
 struct Vertices {
-    /// The triple of each vertex; the first ones in the order of the positions, so that vertex `i` has position `i`.
+    /// The triple of each vertex; the first ones in the order of the positions, so that vertex `i`
+    /// has position `i`.
     triples: Vec<[u32; 3]>,
     /// The vertex of each corner.
     of_corners: Vec<u32>,
@@ -131,7 +132,8 @@ impl Vertices {
         Ok(Self { triples, of_corners, is_used })
     }
 
-    /// Values of a list for every vertex, `neutral` where a triple has none; empty where no triple has one.
+    /// Values of a list for every vertex, `neutral` where a triple has none; empty where no triple
+    /// has one.
     fn gather<const N: usize>(
         &self,
         (name, list): (&'static str, usize),

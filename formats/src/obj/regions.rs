@@ -1,5 +1,5 @@
-//! What an OBJ file says beside vertices and faces: the sets that its faces belong to, and statements
-//! that are not read.
+//! What an OBJ file says beside vertices and faces: the sets that its faces belong to, and
+//! statements that are not read.
 
 use crate::report::ItemId;
 use crate::text::Scanner;

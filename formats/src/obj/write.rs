@@ -6,8 +6,8 @@ use crate::{Attribute, FileReport, Kind, MeshError, TriangleMesh};
 
 /// Writes a mesh in file coordinates, with as many digits as tell every number apart.
 ///
-/// Of the attributes, `color`, `texcoord` and `normal` have a place in OBJ; others are left out. Integer colours become
-/// numbers from 0 to 1.
+/// Of the attributes, `color`, `texcoord` and `normal` have a place in OBJ; others are left out.
+/// Integer colours become numbers from 0 to 1.
 ///
 /// # Errors
 ///

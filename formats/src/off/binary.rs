@@ -1,5 +1,5 @@
-//! OFF in binary: whole numbers and `f32`, both big-endian; some programs write them in their machine's
-//! order and leave out the colours of faces.
+//! OFF in binary: whole numbers and `f32`, both big-endian; some programs write them in their
+//! machine's order and leave out the colours of faces.
 
 use super::columns::Columns;
 use super::keyword::Keyword;
@@ -35,32 +35,25 @@ struct Parsed {
     n_bytes_left: usize,
 }
 
-/// Reads what stands behind the line of the keyword, in the layout that takes the whole file, or else in
-/// the first that makes sense.
+/// Reads what stands behind the line of the keyword: as Geomview writes it, or in the other layout that
+/// takes the whole file to its last byte.
 ///
 /// # Errors
 ///
-/// Those of the first layout: [`MeshError::Truncated`], [`MeshError::CountTooLarge`] or
+/// Those of Geomview's layout: [`MeshError::Truncated`], [`MeshError::CountTooLarge`] or
 /// [`MeshError::IndexOutOfRange`].
 pub(super) fn read(
     scanner: &Scanner<'_>,
     keyword: Keyword,
     report: &mut FileReport,
 ) -> Result<(Vertices, Faces), MeshError> {
-    let mut chosen: Option<Result<Parsed, MeshError>> = None;
-    for layout in LAYOUTS {
-        let parsed = Reader { scanner: scanner.clone(), layout }.parse(keyword);
-        let is_better = match (&parsed, &chosen) {
-            (_, None) | (Ok(_), Some(Err(_))) => true,
-            (Ok(parsed), Some(Ok(before))) => parsed.n_bytes_left == 0 && before.n_bytes_left > 0,
-            (Err(_), Some(_)) => false,
-        };
-        if is_better {
-            chosen = Some(parsed);
-        }
-    }
-    let missing = MeshError::Missing { place: Place::File, what: "contents" };
-    let Parsed { points, columns, faces, colors, n_bytes_left } = chosen.ok_or(missing)??;
+    let parse = |layout| Reader { scanner: scanner.clone(), layout }.parse(keyword);
+    let [of_geomview, others @ ..] = LAYOUTS;
+    let parsed = parse(of_geomview).or_else(|error| {
+        let mut whole = others.into_iter().filter_map(|layout| parse(layout).ok());
+        whole.find(|parsed| parsed.n_bytes_left == 0).ok_or(error)
+    })?;
+    let Parsed { points, columns, faces, colors, n_bytes_left } = parsed;
     colors.register(report);
     report.count(Kind::TrailingByte, n_bytes_left as u64);
     let attributes = columns.into_attributes(keyword, report);

@@ -38,10 +38,10 @@ impl Columns {
         self.push(column, 0.0, true);
     }
 
-    /// Attributes by the keyword. Programs disagree about which of normals and colours come first; the
-    /// order that the keyword stands for is taken unless only the other makes normals of length 1 and
-    /// colours within their range. Under a plain keyword three or four numbers in the range of colours
-    /// are colours.
+    /// Attributes by the keyword. Programs disagree about which of normals and colours come first;
+    /// the order that the keyword stands for is taken unless only the other makes normals of length
+    /// 1 and colours within their range. Under a plain keyword three or four numbers in the range
+    /// of colours are colours.
     pub(super) fn into_attributes(self, keyword: Keyword, report: &mut FileReport) -> Vec<Attribute> {
         if self.n_columns == 0 {
             return Vec::new();

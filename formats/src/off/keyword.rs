@@ -13,7 +13,8 @@ pub(crate) struct Keyword {
 }
 
 impl Keyword {
-    /// Reads a keyword: `OFF` behind `ST`, `C`, `N`, `4` and `n`, each at most once and in any order.
+    /// Reads a keyword: `OFF` behind `ST`, `C`, `N`, `4` and `n`, each at most once and in any
+    /// order.
     pub(crate) fn parse(word: &[u8]) -> Option<Self> {
         let mut keyword = Self::default();
         let mut rest = word;

@@ -7,8 +7,9 @@ use crate::{Attribute, FileReport, Kind, MeshError, ScalarType, TriangleMesh};
 
 /// Writes a mesh in file coordinates, with as many digits as tell every number apart.
 ///
-/// Of the attributes, `normal`, `color` and `texcoord` have a place in OFF; others are left out. Colours have four components
-/// there: opaque where the mesh has three; bytes stay bytes, other integers become numbers from 0 to 1.
+/// Of the attributes, `normal`, `color` and `texcoord` have a place in OFF; others are left out.
+/// Colours have four components there: opaque where the mesh has three; bytes stay bytes, other
+/// integers become numbers from 0 to 1.
 ///
 /// # Errors
 ///

@@ -152,7 +152,8 @@ impl Values for Binary<'_> {
         Ok(())
     }
 
-    /// Takes triangles of the usual layout (a byte, three 32-bit indices) at the speed of a copy, others one by one.
+    /// Takes triangles of the usual layout (a byte, three 32-bit indices) at the speed of a copy,
+    /// others one by one.
     fn faces(
         &mut self,
         element: &Element,

@@ -9,8 +9,8 @@ use crate::{Attribute, Change, FileReport, Kind};
 
 /// Vertices with the texture coordinates of the corners at them.
 ///
-/// The first pair at a vertex keeps the vertex's number; further pairs get vertices behind all others,
-/// in the order seen.
+/// The first pair at a vertex keeps the vertex's number; further pairs get vertices behind all
+/// others, in the order seen.
 pub(super) struct CornerTexcoords {
     /// The pair of each vertex, as the bits of `f32`; [`NONE`] for one without.
     pairs: Vec<[u32; 2]>,
@@ -28,8 +28,8 @@ impl CornerTexcoords {
         Self { pairs: vec![NONE; n_vertices as usize], copies: Vec::new(), further: HashMap::new() }
     }
 
-    /// Gives the corners of a face vertices with its texture coordinates, two numbers for each corner;
-    /// a face with another number of them keeps its vertices.
+    /// Gives the corners of a face vertices with its texture coordinates, two numbers for each
+    /// corner; a face with another number of them keeps its vertices.
     ///
     /// # Errors
     ///
@@ -67,8 +67,8 @@ impl CornerTexcoords {
         Ok(())
     }
 
-    /// Adds the further vertices behind the others, and the texture coordinates to the attributes, in
-    /// place of those of vertices.
+    /// Adds the further vertices behind the others, and the texture coordinates to the attributes,
+    /// in place of those of vertices.
     pub(super) fn finish(
         self,
         points: &mut Points,

@@ -1,4 +1,5 @@
-//! Which vertex properties belong together as one attribute, and under which names attributes are written.
+//! Which vertex properties belong together as one attribute, and under which names attributes are
+//! written.
 
 use super::header::{Element, PropertyKind};
 use crate::distinct::DistinctNames;
@@ -29,9 +30,11 @@ pub(crate) struct AttributePlan {
     pub properties: Vec<usize>,
 }
 
-/// Groups all scalars of the vertex element but its coordinates, in the order of each group's first property.
+/// Groups all scalars of the vertex element but its coordinates, in the order of each group's first
+/// property.
 ///
-/// A group is formed where all its names are there, in any order, with one type. Anything else stands alone.
+/// A group is formed where all its names are there, in any order, with one type. Anything else
+/// stands alone.
 pub(crate) fn plan_attributes(vertex: &Element, coordinates: [usize; 3]) -> Vec<AttributePlan> {
     let scalar_of = |name: &str| {
         let place = vertex.properties.iter().position(|property| property.name == name)?;
@@ -69,8 +72,9 @@ pub(crate) fn plan_attributes(vertex: &Element, coordinates: [usize; 3]) -> Vec<
     plans
 }
 
-/// Property names for the components of all attributes: those of the group where one fits, the attribute's own name for one
-/// component, otherwise the name with the component's number. Names are made distinct, and free of blanks, as PLY needs them.
+/// Property names for the components of all attributes: those of the group where one fits, the
+/// attribute's own name for one component, otherwise the name with the component's number. Names
+/// are made distinct, and free of blanks, as PLY needs them.
 pub(crate) fn property_names(attributes: &[Attribute]) -> Vec<Vec<String>> {
     let mut names = DistinctNames::without(&["x", "y", "z"]);
     let mut free_name = |wanted: String| {

@@ -31,7 +31,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
     }
 }
 
-/// The values after a header, as text or as bytes; elements are taken from it in the header's order.
+/// The values after a header, as text or as bytes; elements are taken from it in the header's
+/// order.
 pub(crate) trait Values {
     /// Positions and attributes from the vertex element.
     fn vertices(&mut self, element: &Element, report: &mut FileReport) -> Result<Vertices, MeshError>;
@@ -199,7 +200,8 @@ fn dressed_faces(
     Ok(())
 }
 
-/// Adds the strips of one list, which negative indices (also written as the largest unsigned one) separate.
+/// Adds the strips of one list, which negative indices (also written as the largest unsigned one)
+/// separate.
 fn add_strips(place: Place, indices: &[i64], n_vertices: u32, faces: &mut Faces) -> Result<(), MeshError> {
     let mut strip = Vec::new();
     for part in indices.split(|&index| index == -1 || index == i64::from(u32::MAX)) {

@@ -1,7 +1,8 @@
 //! Values of a PLY file as text: words, whatever lines they stand in.
 //!
-//! Some programs write more values than their header declares. Such a file makes no sense word by word, but does where every
-//! record takes a line and the rest of the line is passed over; it is read so in a second try.
+//! Some programs write more values than their header declares. Such a file makes no sense word by
+//! word, but does where every record takes a line and the rest of the line is passed over; it is
+//! read so in a second try.
 
 use super::face::{Record, Wanted};
 use super::header::{Element, Header, PropertyKind};
@@ -55,7 +56,8 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// Refuses more things than the text left has room for, each taking `n_words` words of a character and a blank.
+    /// Refuses more things than the text left has room for, each taking `n_words` words of a
+    /// character and a blank.
     fn check_count(&self, what: &'static str, count: u64, n_words: usize) -> Result<(), MeshError> {
         let limit = (self.scanner.n_bytes_left() as u64 + 1) / (2 * n_words.max(1) as u64);
         if n_words > 0 && count > limit {
@@ -89,8 +91,8 @@ impl<'a> Text<'a> {
         Ok(Some(()))
     }
 
-    /// Passes a record and leaves what is wanted of it in `record`; `None` where the text ends inside
-    /// it.
+    /// Passes a record and leaves what is wanted of it in `record`; `None` where the text ends
+    /// inside it.
     fn record(&mut self, element: &Element, wanted: Option<&Wanted>) -> Result<Option<()>, MeshError> {
         self.record.clear();
         for (place, property) in element.properties.iter().enumerate() {
@@ -148,7 +150,8 @@ impl<'a> Text<'a> {
 }
 
 impl Values for Text<'_> {
-    /// Packs the scalars into records, the coordinates as `f64` whatever type is declared: the digits are there.
+    /// Packs the scalars into records, the coordinates as `f64` whatever type is declared: the
+    /// digits are there.
     fn vertices(&mut self, element: &Element, report: &mut FileReport) -> Result<Vertices, MeshError> {
         let coordinates = coordinate_properties(element)?;
         let mut wide = element.clone();

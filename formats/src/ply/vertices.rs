@@ -1,6 +1,7 @@
 //! Vertex records of one fixed length, taken apart into positions and attributes.
 //!
-//! Text and records with lists are packed into this form first (see [`super::text`] and [`super::binary`]).
+//! Text and records with lists are packed into this form first (see [`super::text`] and
+//! [`super::binary`]).
 
 use super::header::{Element, PropertyKind};
 use super::names::plan_attributes;
@@ -158,7 +159,8 @@ fn points(records: &Records<'_>, places: [usize; 3]) -> Result<Points, MeshError
     Ok(if records.is_text { Points::Text(points) } else { Points::F64(points) })
 }
 
-/// Positions whose three values stand side by side: the layout of nearly every scan, at the speed of a copy.
+/// Positions whose three values stand side by side: the layout of nearly every scan, at the speed
+/// of a copy.
 fn contiguous_positions(records: &Records<'_>, offset: usize, value: fn([u8; 4]) -> f32) -> Vec<[f32; 3]> {
     let position = |record: &[u8]| match record.get(offset..).and_then(<[u8]>::first_chunk::<12>) {
         Some(&[a, b, c, d, e, f, g, h, i, j, k, l]) => {
@@ -173,7 +175,8 @@ fn contiguous_positions(records: &Records<'_>, offset: usize, value: fn([u8; 4])
     records.iter().map(position).collect()
 }
 
-/// Values of `SIZE` bytes at some offsets of every record, in the order of the offsets, little-endian.
+/// Values of `SIZE` bytes at some offsets of every record, in the order of the offsets,
+/// little-endian.
 fn gather<const SIZE: usize>(records: &Records<'_>, offsets: &[usize]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(records.n_records * offsets.len() * SIZE);
     for record in records.iter() {
@@ -190,7 +193,8 @@ impl Records<'_> {
     }
 }
 
-/// The bytes of a value in little-endian order; zeros where the record is too short, which its maker rules out.
+/// The bytes of a value in little-endian order; zeros where the record is too short, which its
+/// maker rules out.
 pub(crate) fn value_bytes<const SIZE: usize>(
     record: &[u8],
     offset: usize,

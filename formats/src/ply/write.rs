@@ -7,7 +7,8 @@ use super::names::property_names;
 use crate::face_colors::unit_to_byte;
 use crate::{Attribute, Change, FileReport, Kind, MeshError, ScalarType, TriangleMesh};
 
-/// Writes a mesh; coordinates are `float` where the origin is zero and `double`, in file coordinates, where it is not.
+/// Writes a mesh; coordinates are `float` where the origin is zero and `double`, in file
+/// coordinates, where it is not.
 ///
 /// # Errors
 ///

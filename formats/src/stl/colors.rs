@@ -1,8 +1,8 @@
 //! Colours of facets in the two bytes behind each, by two conventions that contradict each other.
 //!
-//! VisCAM: bit 15 set for a colour, 5 bits each for red (highest), green and blue. Magics, whose header
-//! holds `COLOR=` and the colour of the whole in 4 bytes: bit 15 clear for a facet's own colour, red in
-//! the lowest bits.
+//! VisCAM: bit 15 set for a colour, 5 bits each for red (highest), green and blue. Magics, whose
+//! header holds `COLOR=` and the colour of the whole in 4 bytes: bit 15 clear for a facet's own
+//! colour, red in the lowest bits.
 
 use crate::face_colors::FaceColors;
 use crate::{FileReport, Kind};

@@ -38,7 +38,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
     Ok((TriangleMesh { origin, positions, triangles, attributes: Vec::new(), rounding }, report))
 }
 
-/// Whether a file is text: it begins with `solid`, has not the length of a binary file, and no NUL near its beginning.
+/// Whether a file is text: it begins with `solid`, has not the length of a binary file, and no NUL
+/// near its beginning.
 fn is_text(bytes: &[u8]) -> bool {
     const SEARCHED_BYTES: usize = 1024;
     let beginning = &bytes[..bytes.len().min(SEARCHED_BYTES)];
@@ -58,7 +59,8 @@ fn read_binary(bytes: &[u8], report: &mut FileReport) -> Result<Soup, MeshError>
         length_of_binary(bytes).ok_or_else(|| truncated("STL header", HEADER_BYTES as u64 + 4))?;
     let (records, rest) = bytes[HEADER_BYTES + 4..].as_chunks::<TRIANGLE_BYTES>();
     let stated = (expected - HEADER_BYTES as u64 - 4) / TRIANGLE_BYTES as u64;
-    // Programs that write while they count leave 0 or all ones; a file that was cut claims too much.
+    // Programs that write while they count leave 0 or all ones; a file that was cut claims too
+    // much.
     let is_unknown = stated == u64::from(u32::MAX) && !records.is_empty();
     if rest.is_empty() && (stated < records.len() as u64 || is_unknown) {
         let n = figure(records.len() as u64);

@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// The distinct positions in first-seen order, and the number of its vertex for each corner. Zero and minus zero are the same.
+/// The distinct positions in first-seen order, and the number of its vertex for each corner. Zero
+/// and minus zero are the same.
 ///
-/// Expected linear time; the standard hash function has a secret key, so no file can make the table slow.
+/// Expected linear time; the standard hash function has a secret key, so no file can make the table
+/// slow.
 pub(crate) fn weld(corners: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<u32>) {
     let mut vertex_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(corners.len() / 4);
     let mut positions = Vec::new();

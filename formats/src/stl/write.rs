@@ -7,7 +7,8 @@ use crate::{FileReport, Kind, MeshError, MeshFormat, TriangleMesh};
 
 /// Writes a mesh. Attributes have no place in STL and are left out.
 ///
-/// A mesh about an origin other than zero needs more digits than the binary form has, so it is written as text.
+/// A mesh about an origin other than zero needs more digits than the binary form has, so it is
+/// written as text.
 ///
 /// # Errors
 ///
