@@ -157,11 +157,13 @@ fn choose_steps(
     alive: &[u32],
     limit: Option<u32>,
 ) -> Vec<u32> {
+    // The input is always a level.
     let mut steps = vec![0];
     let (Some(&finest), Some(&coarsest)) = (alive.first(), alive.last()) else { return steps };
     if limit.is_some_and(|limit| limit <= 1) || alive.len() == 1 {
         return steps;
     }
+    // Intervals are even on a logarithmic scale of counts: there, levels of detail are chosen.
     let span = octaves(finest, coarsest);
     let n_intervals = match limit {
         Some(limit) => f64::from(limit - 1),
@@ -178,6 +180,7 @@ fn choose_steps(
         let this_interval = interval(count);
         // Simplex counts may rise from a step to the next, never from a level to the next.
         let is_smaller = |steps: &[u32]| steps.last().is_some_and(|&kept| count < alive[kept as usize]);
+        // An interval in which no step was a choice keeps its first one, once it is left.
         if let Some(before) = spare.filter(|&before| this_interval > interval(alive[before as usize])) {
             steps.push(before);
             last_interval = interval(alive[before as usize]);

@@ -1,6 +1,7 @@
 //! The triangles that close a hole.
 
-use super::Hole;
+use super::surface::GONE;
+use super::{Hole, Surface};
 use crate::geometry::vector::Vector;
 
 /// Triangles over ring indices, each in the order of the ring and so oriented like the star it
@@ -46,5 +47,34 @@ impl Filling {
                 (is_inner && (i < j || is_boundary)).then_some([i.min(j), i.max(j)])
             })
         })
+    }
+}
+
+impl Surface {
+    /// Puts a filling in the place of the star of `hole`: its triangles, fewer than the star has,
+    /// go into the first slots of the star. O(sum of the valences around the hole).
+    pub fn fill(&mut self, hole: &Hole, filling: &Filling) {
+        let n_new = filling.triangles.len();
+        debug_assert!(n_new < hole.slots.len());
+        let new = |i: usize| if i < n_new { filling.corners(hole, i) } else { GONE };
+        // A corner that the old and the new triangle of a slot have in common keeps it. First some
+        // make room, then others take it.
+        for (i, &slot) in hole.slots.iter().enumerate() {
+            let (old, new) = (self.corners(slot), new(i));
+            for v in old.into_iter().filter(|v| *v != hole.removed && !new.contains(v)) {
+                self.stars.remove(v, slot);
+            }
+        }
+        self.stars.clear(hole.removed);
+        for (i, &slot) in hole.slots.iter().enumerate() {
+            let new = new(i);
+            let old = std::mem::replace(&mut self.triangles[slot as usize], new);
+            if new != GONE {
+                for v in new.into_iter().filter(|v| !old.contains(v)) {
+                    self.stars.add(v, slot);
+                }
+            }
+        }
+        self.n_triangles -= hole.slots.len() - n_new;
     }
 }

@@ -1,7 +1,7 @@
 //! Vertices that stay: they are neither removed nor moved, and no new edge joins two of them.
 //!
-//! The border between two meshes that meet stays the same at all levels of both if its vertices are locked on either side: a new edge
-//! between two of them could pass by a third.
+//! The border between two meshes that meet stays the same at all levels of both if its vertices are
+//! locked on either side: a new edge between two of them could pass by a third.
 
 /// A bit per vertex; none is locked where there is no bit.
 #[derive(Clone, Debug, Default)]

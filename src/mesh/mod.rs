@@ -4,6 +4,7 @@
 //! the mesh while it is being simplified, with the star of every vertex at hand; a [`Hole`] is a
 //! star about to be removed, and a [`Filling`] what closes it.
 
+mod collapse;
 mod curve;
 mod filling;
 mod hole;
@@ -12,12 +13,12 @@ mod locked;
 mod numbering;
 mod renumbering;
 mod repair;
-mod seams;
 mod stars;
 mod surface;
 mod tetra_repair;
 mod tetrahedra;
 mod used;
+mod wedges;
 
 pub use curve::along_a_curve;
 pub use filling::Filling;
@@ -27,9 +28,9 @@ pub use locked::Locked;
 pub use numbering::Numbering;
 pub use renumbering::Renumbering;
 pub use repair::{RepairReport, Repaired, repair};
-pub use seams::Seams;
 pub use stars::{Stars, facing_edge};
 pub use surface::Surface;
 pub use tetra_repair::{TetrahedronRepairReport, repair_tetrahedra};
 pub use tetrahedra::{FACES, Tetrahedra, boundary_triangles};
 pub(crate) use used::UsedVertices;
+pub use wedges::Wedges;

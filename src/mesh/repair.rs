@@ -1,16 +1,19 @@
-//! From the triangles of a file to the triangles of a mesh: weld, drop what is no surface, count everything.
+//! From the triangles of a file to the triangles of a mesh: weld, drop what is no surface, count
+//! everything.
 //!
 //! The rules, in this order:
 //!
-//! 1. Vertices equal in position (bit for bit, `-0` equal to `0`) and in every attribute become one vertex.
-//! 2. Vertices equal in position alone are *seam* vertices: they stay apart in the output, since their attributes
-//!    differ, and share one *point* in the topology, so that the two sides of a seam never come apart. Where nothing but
-//!    their normals differs they share their *look* as well, and the seam binds nobody: flat shading would make a seam of
-//!    every edge.
+//! 1. Vertices equal in position (bit for bit, `-0` equal to `0`) and in every attribute become one
+//!    vertex.
+//! 2. Vertices equal in position alone are *seam* vertices: they stay apart in the output, since
+//!    their attributes differ, and share one *point* in the topology, so that the two sides of a
+//!    seam never come apart. Where nothing but their normals differs they share their *look* as
+//!    well, and the seam binds nobody: flat shading would make a seam of every edge.
 //! 3. A triangle with two corners on one point is no surface: dropped.
-//! 4. A triangle with the same three points in the same orientation as an earlier one is dropped. The opposite
-//!    orientation is kept: two-sided sheets are drawn that way.
-//! 5. A triangle of zero area with three distinct points is kept: its neighbours are joined through it.
+//! 4. A triangle with the same three points in the same orientation as an earlier one is dropped.
+//!    The opposite orientation is kept: two-sided sheets are drawn that way.
+//! 5. A triangle of zero area with three distinct points is kept: its neighbours are joined through
+//!    it.
 //! 6. Vertices that no triangle uses are dropped.
 
 use crate::flat::{NO_INDEX, canonical};
@@ -43,13 +46,14 @@ pub struct RepairReport {
 pub struct Repaired {
     /// The mesh; its vertices keep the order they had.
     pub mesh: TriangleMesh,
-    /// The point of each vertex, where some vertices share one: `points[v] <= v` is the first vertex at that position.
-    /// `None` where every vertex has a position of its own.
+    /// The point of each vertex, where some vertices share one: `points[v] <= v` is the first
+    /// vertex at that position. `None` where every vertex has a position of its own.
     pub points: Option<Vec<u32>>,
-    /// The look of each vertex, where `points` is there: the first vertex that differs from it at most in the normal.
+    /// The look of each vertex, where `points` is there: the first vertex that differs from it at
+    /// most in the normal.
     pub looks: Option<Vec<u32>>,
-    /// Points of the input's surface that are not part of the mesh: each is a dropped triangle with two equal corners, which is a
-    /// segment, or with three, which is a point.
+    /// Points of the input's surface that are not part of the mesh: each is a dropped triangle with
+    /// two equal corners, which is a segment, or with three, which is a point.
     pub dropped: Vec<Triangle>,
     /// What was done.
     pub report: RepairReport,
@@ -177,7 +181,8 @@ fn count_moved(vertices: &[u32]) -> usize {
     vertices.iter().zip(0..).filter(|&(&to, from): &(&u32, u32)| to != from).count()
 }
 
-/// Takes out the triangles with fewer than three points; gives the points of their corners, in ascending order.
+/// Takes out the triangles with fewer than three points; gives the points of their corners, in
+/// ascending order.
 fn take_degenerate(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> Vec<[u32; 3]> {
     let mut degenerate = vec![];
     triangles.retain(|triangle| {
@@ -192,8 +197,8 @@ fn take_degenerate(triangles: &mut Vec<[u32; 3]>, points: &[u32]) -> Vec<[u32; 3
     degenerate
 }
 
-/// Those of the degenerate triangles that are neither a corner nor an edge of a triangle of `mesh`, each once. O(mesh) if there are
-/// any degenerate triangles.
+/// Those of the degenerate triangles that are neither a corner nor an edge of a triangle of `mesh`,
+/// each once. O(mesh) if there are any degenerate triangles.
 fn outside(mesh: &TriangleMesh, points: &[u32], mut degenerate: Vec<[u32; 3]>) -> Vec<Triangle> {
     degenerate.sort_unstable();
     degenerate.dedup_by_key(|&mut [low, _, high]| [low, high]);
@@ -251,7 +256,8 @@ fn renumber_referenced(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     renumbered
 }
 
-/// For each kept vertex, in the new numbering, the first kept vertex with the same entry in `firsts`.
+/// For each kept vertex, in the new numbering, the first kept vertex with the same entry in
+/// `firsts`.
 fn first_used(firsts: &[u32], renumbered: &[u32], n_used: usize) -> Vec<u32> {
     let mut first_kept = vec![NO_INDEX; firsts.len()];
     let mut kept = Vec::with_capacity(n_used);

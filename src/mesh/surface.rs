@@ -1,27 +1,30 @@
 //! The mesh while it is being simplified.
 
-use super::{Filling, Hole, Locked, Renumbering, Stars};
+use super::{Locked, Renumbering, Stars};
+use crate::flat::NO_INDEX;
 use crate::geometry::vector::{Vector, widen};
 
 /// Corners of a slot whose triangle is gone.
-const GONE: [u32; 3] = [u32::MAX; 3];
+pub(super) const GONE: [u32; 3] = [NO_INDEX; 3];
 
-/// So few slots do not close up, nor does an eighth of those of the input: there is no more to be gained.
+/// So few slots do not close up, nor does an eighth of those of the input: there is no more to be
+/// gained.
 const MIN_SLOTS: usize = 4096;
 
 /// Triangles in slots, with the star of every vertex.
 ///
-/// A slot holds one triangle at a time. A retriangulated hole has fewer triangles than the star it came from, so new
-/// triangles always find room in the slots of the old ones, and arrays that run parallel to the slots never grow; they
-/// become shorter when slots [close up](Self::close_up).
+/// Edges may have any number of triangles. A slot holds one triangle at a time. A retriangulated
+/// hole has fewer triangles than the star it came from, so new triangles always find room in the
+/// slots of the old ones, and arrays that run parallel to the slots never grow; they become shorter
+/// when slots [close up](Self::close_up).
 #[derive(Clone, Debug)]
 pub struct Surface {
-    positions: Vec<[f32; 3]>,
+    pub(super) positions: Vec<[f32; 3]>,
     /// Where the vertices were at the start; empty while none has moved.
     origins: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    stars: Stars,
-    n_triangles: usize,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) stars: Stars,
+    pub(super) n_triangles: usize,
     locked: Locked,
 }
 
@@ -38,14 +41,20 @@ impl Surface {
         self.locked = Locked::boundary_of(self.n_vertices(), self.iter().map(|(_, corners)| corners));
     }
 
+    /// Whether some vertices may be locked.
+    #[inline]
+    pub fn has_locked(&self) -> bool {
+        !self.locked.is_empty()
+    }
+
     /// Whether vertex `v` is to stay.
     #[inline]
     pub fn is_locked(&self, v: u32) -> bool {
         self.locked.has(v)
     }
 
-    /// Whether the edge `a b` may be made: the mesh does not have it yet, and not both ends are locked. O(valence of the smaller
-    /// star).
+    /// Whether the edge `a b` may be made: the mesh does not have it yet, and not both ends are
+    /// locked. O(valence of the smaller star).
     pub fn may_join(&self, a: u32, b: u32) -> bool {
         !self.locked.has_both([a, b]) && self.n_faces(a, b) == 0
     }
@@ -95,7 +104,7 @@ impl Surface {
         self.positions[v as usize] = position;
     }
 
-    /// Corners of the triangle in `slot`; all `u32::MAX` once the slot is empty.
+    /// Corners of the triangle in `slot`; all [`u32::MAX`] once the slot is empty.
     #[inline]
     pub fn corners(&self, slot: u32) -> [u32; 3] {
         self.triangles[slot as usize]
@@ -105,6 +114,12 @@ impl Surface {
     #[inline]
     pub fn triangle(&self, slot: u32) -> [Vector; 3] {
         self.corners(slot).map(|v| self.point(v))
+    }
+
+    /// Whether the triangle in `slot` is still there.
+    #[inline]
+    pub fn is_alive(&self, slot: u32) -> bool {
+        self.corners(slot) != GONE
     }
 
     /// Slots in use and their triangles.
@@ -134,39 +149,13 @@ impl Surface {
         })
     }
 
-    /// Puts a filling in the place of the star of `hole`: its triangles, fewer than the star has, go into the first slots of the star.
-    /// O(sum of the valences around the hole).
-    pub fn fill(&mut self, hole: &Hole, filling: &Filling) {
-        let n_new = filling.triangles.len();
-        debug_assert!(n_new < hole.slots.len());
-        let new = |i: usize| if i < n_new { filling.corners(hole, i) } else { GONE };
-        // A corner that the old and the new triangle of a slot have in common keeps it. First some make room, then others take it.
-        for (i, &slot) in hole.slots.iter().enumerate() {
-            let (old, new) = (self.corners(slot), new(i));
-            for v in old.into_iter().filter(|v| *v != hole.removed && !new.contains(v)) {
-                self.stars.remove(v, slot);
-            }
-        }
-        self.stars.clear(hole.removed);
-        for (i, &slot) in hole.slots.iter().enumerate() {
-            let new = new(i);
-            let old = std::mem::replace(&mut self.triangles[slot as usize], new);
-            if new != GONE {
-                for v in new.into_iter().filter(|v| !old.contains(v)) {
-                    self.stars.add(v, slot);
-                }
-            }
-        }
-        self.n_triangles -= hole.slots.len() - n_new;
-    }
-
     /// Gives back memory that fillings left behind; cheap enough to call after every round.
     pub fn compact(&mut self) {
         self.stars.compact(self.n_triangles);
     }
 
-    /// Closes the slots up where a quarter of them has become empty, and gives the new numbers for all that runs parallel to the slots
-    /// or names them. O(slots) when it works, O(1) otherwise.
+    /// Closes the slots up where a quarter of them has become empty, and gives the new numbers for
+    /// all that runs parallel to the slots or names them. O(slots) when it works, O(1) otherwise.
     pub fn close_up(&mut self) -> Option<Renumbering> {
         let is_short = self.n_slots() < MIN_SLOTS.max(self.n_vertices() / 4);
         if is_short || 4 * self.n_triangles > 3 * self.n_slots() {
@@ -183,6 +172,7 @@ impl Surface {
 mod tests {
     use super::*;
     use crate::generate::{sphere, torus};
+    use crate::mesh::{Filling, Hole};
     use std::collections::BTreeSet;
 
     /// The fan from the first ring vertex.

@@ -1,17 +1,22 @@
-//! From the tetrahedra of a file to tetrahedra that fit each other: weld, drop, turn, right, count everything.
+//! From the tetrahedra of a file to tetrahedra that fit each other: weld, drop, turn, right, count
+//! everything.
 //!
 //! The rules, in this order:
 //!
-//! 1. Vertices at one position become one where the mesh stays one by it: everywhere if no face gets a third tetrahedron and no
-//!    edge of the boundary a third face by that; otherwise only within tetrahedra, which are flat and go. A grid that is wrapped
-//!    around on itself with crossing diagonals keeps its seam that way.
-//! 2. A tetrahedron with two corners in one vertex, or with the corners of an earlier one, is dropped.
-//! 3. Corners in the wrong order are put right: where the volume is negative and the faces do not fit those of the neighbours,
-//!    or all are negative.
-//! 4. What is negative still is turned inside out by its vertices. It is righted by moving one vertex inside the mesh towards
-//!    the middle of its neighbours, if that makes all volumes around it positive. One whose vertices are all on the boundary is
-//!    dropped if two of its faces are, and the boundary goes over to its other two. Others are kept.
-//! 5. A tetrahedron of zero volume with four distinct corners is kept: its neighbours are joined through it.
+//! 1. Vertices at one position become one where the mesh stays one by it: everywhere if no face
+//!    gets a third tetrahedron and no edge of the boundary a third face by that; otherwise only
+//!    within tetrahedra, which are flat and go. A grid that is wrapped around on itself with
+//!    crossing diagonals keeps its seam that way.
+//! 2. A tetrahedron with two corners in one vertex, or with the corners of an earlier one, is
+//!    dropped.
+//! 3. Corners in the wrong order are put right: where the volume is negative and the faces do not
+//!    fit those of the neighbours, or all are negative.
+//! 4. What is negative still is turned inside out by its vertices. It is righted by moving one
+//!    vertex inside the mesh towards the middle of its neighbours, if that makes all volumes around
+//!    it positive. One whose vertices are all on the boundary is dropped if two of its faces are,
+//!    and the boundary goes over to its other two. Others are kept.
+//! 5. A tetrahedron of zero volume with four distinct corners is kept: its neighbours are joined
+//!    through it.
 //! 6. Vertices that no tetrahedron uses are dropped.
 
 use super::UsedVertices;
@@ -44,11 +49,14 @@ pub struct TetrahedronRepairReport {
     pub tetrahedra_flat: usize,
     /// Tetrahedra of negative volume, kept.
     pub tetrahedra_inverted: usize,
-    /// Faces of three tetrahedra or more, or of two on the same side, whose corners stay where they are.
+    /// Faces of three tetrahedra or more, or of two on the same side, whose corners stay where they
+    /// are.
     pub faces_crowded: usize,
-    /// Values of fields that are not a number (NaN), kept. Deviations of their fields are over the other values.
+    /// Values of fields that are not a number (NaN), kept. Deviations of their fields are over the
+    /// other values.
     pub values_nan: usize,
-    /// Values of fields that are infinite, kept. Deviations of their fields are over the other values.
+    /// Values of fields that are infinite, kept. Deviations of their fields are over the other
+    /// values.
     pub values_infinite: usize,
 }
 
@@ -187,7 +195,8 @@ fn turn(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     if negative.len() == mesh.tetrahedra.len() {
         return;
     }
-    // Positive now, but those whose every shared face is seen from the side of the neighbour were in order before.
+    // Positive now, but those whose every shared face is seen from the side of the neighbour were
+    // in order before.
     let fits = fitting_faces(mesh);
     for i in negative {
         let [n_fitting, n_shared] = fits[i];
@@ -216,7 +225,8 @@ fn fitting_faces(mesh: &TetrahedronMesh) -> Vec<[u8; 2]> {
     counts
 }
 
-/// Largest star of a vertex that is moved: all of it is looked at once for each inverted tetrahedron there.
+/// Largest star of a vertex that is moved: all of it is looked at once for each inverted
+/// tetrahedron there.
 const MAX_STAR: usize = 512;
 
 /// Moves vertices to make volumes positive, by rule 4.
@@ -249,7 +259,8 @@ fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     }
 }
 
-/// Drops inverted tetrahedra with two faces on the boundary whose other two meet in an edge inside, by rule 4.
+/// Drops inverted tetrahedra with two faces on the boundary whose other two meet in an edge inside,
+/// by rule 4.
 fn peel(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     let is_inverted = |mesh: &TetrahedronMesh, i: usize| mesh.six_volumes(mesh.tetrahedra[i]) < 0.0;
     let inverted: Vec<usize> = (0..mesh.tetrahedra.len()).filter(|&i| is_inverted(mesh, i)).collect();
@@ -283,7 +294,8 @@ fn ascending(a: u32, b: u32) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Moves a vertex with a star as little as makes every tetrahedron around it positive, or not at all.
+/// Moves a vertex with a star as little as makes every tetrahedron around it positive, or not at
+/// all.
 fn move_to_middle(mesh: &mut TetrahedronMesh, v: u32, star: &[u32]) -> bool {
     const PARTS: f32 = 16.0;
     let star: Vec<[u32; 4]> = star.iter().map(|&slot| mesh.tetrahedra[slot as usize]).collect();
@@ -367,7 +379,8 @@ mod tests {
 
     #[test]
     fn an_inverted_tetrahedron_on_the_boundary_is_peeled_off() {
-        // Four tetrahedra around the edge 0 1, the first of them turned inside out by its outer vertex.
+        // Four tetrahedra around the edge 0 1, the first of them turned inside out by its outer
+        // vertex.
         let ring = |angle: f32| [angle.cos(), angle.sin(), 0.5];
         let mut points = vec![[0.0; 3], [0.0, 0.0, 1.0]];
         points.extend([0.0, 1.0, 2.0, 3.0, 4.0].map(ring));
@@ -397,7 +410,8 @@ mod tests {
         }
     }
 
-    // In the three tests below, a pass over the mesh for each place would be ten thousand million steps and more.
+    // In the three tests below, a pass over the mesh for each place would be ten thousand million
+    // steps and more.
 
     #[test]
     fn vertices_that_turn_tetrahedra_inside_out_in_many_places_are_moved_back() {
@@ -412,7 +426,8 @@ mod tests {
     #[test]
     fn inverted_tetrahedra_in_many_places_are_peeled_off() {
         const N: u32 = 50_000;
-        // A flat one over two others; two of its corners pushed up through the edge between the other two.
+        // A flat one over two others; two of its corners pushed up through the edge between the
+        // other two.
         let points = |z| [[0.0; 3], [1.0, 1.0, 0.0], [1.0, 0.0, z], [0.0, 1.0, z], [0.5, 0.5, -1.0]];
         let one = |z| mesh(&points(z), &[[0, 1, 2, 3], [3, 2, 0, 4], [2, 3, 1, 4]]);
         assert_eq!(repair_tetrahedra(&one(-0.125)).1, TetrahedronRepairReport::default());
@@ -424,7 +439,8 @@ mod tests {
 
     #[test]
     fn very_many_vertices_at_one_place_are_welded() {
-        // Two tetrahedra that share the place of an edge only, and flat ones in a chain, from its end.
+        // Two tetrahedra that share the place of an edge only, and flat ones in a chain, from its
+        // end.
         const N: u32 = 300_000;
         let mut positions = vec![[9.0; 3]; N as usize];
         positions.extend([[8.0; 3], [7.0, 8.0, 9.0]]);

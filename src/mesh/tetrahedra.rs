@@ -1,13 +1,14 @@
 //! Tetrahedra while they are being fused: flat arrays, with the star of every vertex at hand.
 //!
-//! A tetrahedron keeps its slot while its corners change, and a slot is never used again. So the star of a vertex stays right
-//! without being touched when tetrahedra around it die: whoever reads it passes over the dead. A new vertex gets its star at
-//! the end of the pool, once.
+//! A tetrahedron keeps its slot while its corners change, and a slot is never used again. So the
+//! star of a vertex stays right without being touched when tetrahedra around it die: whoever reads
+//! it passes over the dead. A new vertex gets its star at the end of the pool, once.
 
 use crate::flat::{Groups, NO_INDEX};
 use crate::geometry::vector::{cross, dot, sub};
 
-/// Corners of the face opposite each corner, counter-clockwise seen from outside a tetrahedron of positive volume.
+/// Corners of the face opposite each corner, counter-clockwise seen from outside a tetrahedron of
+/// positive volume.
 pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// First corner of a slot whose tetrahedron is dead.
@@ -139,7 +140,8 @@ impl Tetrahedra {
         })
     }
 
-    /// Faces that did not part two tetrahedra at the start: of three or more, or of two on the same side.
+    /// Faces that did not part two tetrahedra at the start: of three or more, or of two on the same
+    /// side.
     pub fn misfits(&self) -> &[[u32; 3]] {
         &self.misfits
     }
@@ -209,7 +211,8 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    /// Faces meet in the list of their least vertex, so that nothing is hashed and no list is longer than a star. O(n).
+    /// Faces meet in the list of their least vertex, so that nothing is hashed and no list is
+    /// longer than a star. O(n).
     pub(super) fn new(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Self {
         let mut sides = Self { boundary: vec![0; tetrahedra.len()], misfits: vec![] };
         for (v, list) in (0..).zip(faces_by_least_vertex(tetrahedra, n_vertices).iter_mut()) {
@@ -246,8 +249,8 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// Whether its corners are in ascending order, or an even number of swaps away from it, seen from outside its tetrahedron. Of two
-    /// neighbours, one sees the face between them so.
+    /// Whether its corners are in ascending order, or an even number of swaps away from it, seen
+    /// from outside its tetrahedron. Of two neighbours, one sees the face between them so.
     pub(super) fn is_even(&self, tetrahedra: &[[u32; 4]]) -> bool {
         let [a, b, c] = FACES[self.corner as usize].map(|i| tetrahedra[self.slot as usize][i]);
         (u8::from(a > b) + u8::from(b > c) + u8::from(a > c)) & 1 == 0

@@ -1,4 +1,7 @@
 //! The answer to a query.
+//!
+//! This file and `lod` name each other: a cut refers to the [`Lod`] that it is a level of, and a `Lod`
+//! makes cuts.
 
 use super::lod::from_file;
 use super::used::UsedVertices;

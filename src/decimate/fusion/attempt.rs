@@ -22,8 +22,7 @@ pub(super) struct Accepted {
 /// lose against many.
 const ERROR_WEIGHT: f64 = 1.25e3;
 
-/// How many times dearer a fusion would be that takes all of the volume that may be lost still: what is scarce is left to those that
-/// need little of it.
+/// Cost factor of a fusion that would use up the whole remaining volume budget, so that the budget is left to fusions that need little of it.
 const SCARCITY: f64 = 100.0;
 
 /// Largest star of a vertex that is fused. A fusion looks at every tetrahedron around its vertices, and gives all of those around a
@@ -76,7 +75,7 @@ impl State {
         scale(sum, 1.0 / vertices.len() as f64)
     }
 
-    /// Looks whether a fusion holds. Its neighbourhood is gathered then.
+    /// Whether a fusion holds, and at which point. Gathers its neighbourhood.
     pub(super) fn try_fusion(&mut self, prey: &Prey) -> Option<Accepted> {
         let mut members = [0; 4];
         let mut n_members = 0;
@@ -129,7 +128,7 @@ impl State {
             let is_beaten = |error: f64| {
                 error > self.max_error || best.as_ref().is_some_and(|best| best.cost <= cost(error))
             };
-            // What costs least is asked first.
+            // The cheapest test comes first.
             if is_beaten(before) {
                 return;
             }
@@ -171,7 +170,7 @@ impl State {
         }
     }
 
-    /// Whether a whole component would go, as one can that has no volume. Components stay.
+    /// Whether a whole component would vanish, as one without volume can. Components stay.
     fn leaves_nothing(&self) -> bool {
         self.neighbourhood.affected.is_empty()
     }

@@ -71,7 +71,7 @@ fn find_all(state: &State, candidates: &mut [Candidate], is_meant: fn(&Candidate
     Queue::new(costs.into_iter().flatten())
 }
 
-/// What comes of a vertex that is first in the queue.
+/// What is decided for the vertex that is first in the queue.
 enum Turn {
     /// No edge of it can be fused.
     None,
@@ -84,7 +84,7 @@ enum Turn {
 /// cost a thousand times as much.
 fn turn(state: &mut State, edges: &mut Edges, queue: &Queue, v: u32, candidate: &mut Candidate) -> Turn {
     let is_changed = state.touched[v as usize] > candidate.found;
-    // Of a star as it was, the cheapest edge is known, and that it is first.
+    // If the star has not changed, the cheapest edge is known and comes first.
     let mut is_known = !is_changed && candidate.n_refused == 0;
     if !is_known {
         let n_refused = candidate.n_refused;

@@ -1,7 +1,6 @@
 //! Fusion: tetrahedra collapse to points, one after another, in the order of the planar quadric error metric.
 //!
-//! The naive decimator of volumes collapses edges and needs ten times as many steps. A fusion takes all four vertices of a
-//! *prey* tetrahedron to one *fusion point*: the tetrahedra that share two of them or more die, at least eleven inside
+//! The naive decimator of volumes collapses edges and needs ten times as many steps. A fusion takes all four vertices of a tetrahedron, the *prey*, to one *fusion point* (the paper's words): the tetrahedra that share two of them or more die, at least eleven inside
 //! the mesh, those that share one stretch to the new vertex.
 //!
 //! Why the mesh stays one. Before the fusion the tetrahedra around the prey fill a region exactly. Its outer faces, seen from

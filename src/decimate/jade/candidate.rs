@@ -65,7 +65,7 @@ pub(super) fn fill(
         Ok(()) if scratch.hole.n_ring() >= 3 => {}
         Ok(()) | Err(NoHole::Complex | NoHole::TooLarge) => return Err(Refusal::Impossible),
     }
-    let class = classify(&scratch.hole, surface, names.seams(), cos_feature_angle);
+    let class = classify(&scratch.hole, surface, names.wedges(), cos_feature_angle);
     if class == Class::SeamCorner {
         return Err(Refusal::Impossible);
     }

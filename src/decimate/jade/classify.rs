@@ -7,7 +7,7 @@
 //! levels. Only corners of seams stay.
 
 use crate::geometry::vector::{dot, length_sq};
-use crate::mesh::{Hole, Seams, Surface};
+use crate::mesh::{Hole, Surface, Wedges};
 
 /// What the star of a vertex looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,13 +27,13 @@ pub enum Class {
 
 /// Classifies the vertex of `hole`. `cos_feature_angle` is that of the angle between normals above
 /// which an edge is a feature edge; every edge of a seam is one. O(valence).
-pub fn classify(hole: &Hole, surface: &Surface, seams: Option<&Seams>, cos_feature_angle: f64) -> Class {
+pub fn classify(hole: &Hole, surface: &Surface, wedges: Option<&Wedges>, cos_feature_angle: f64) -> Class {
     let mut features = [0; 2];
     let mut n_features = 0;
     let mut n_seams = 0;
     for i in inner_spokes(hole) {
         let before = if i == 0 { hole.slots.len() - 1 } else { i - 1 };
-        let is_seam = seams.is_some_and(|seams| is_seam_spoke(hole, surface, seams, before, i));
+        let is_seam = wedges.is_some_and(|wedges| is_seam_spoke(hole, surface, wedges, before, i));
         n_seams += usize::from(is_seam);
         if is_seam || is_feature(hole, before, i, cos_feature_angle) {
             features[n_features.min(1)] = i;
@@ -59,7 +59,7 @@ fn is_feature(hole: &Hole, before: usize, after: usize, cos_feature_angle: f64) 
     dot(a, b) < cos_feature_angle * (length_sq(a) * length_sq(b)).sqrt()
 }
 
-fn is_seam_spoke(hole: &Hole, surface: &Surface, seams: &Seams, before: usize, after: usize) -> bool {
+fn is_seam_spoke(hole: &Hole, surface: &Surface, wedges: &Wedges, before: usize, after: usize) -> bool {
     let slots = [hole.slots[before], hole.slots[after]];
-    seams.differ(surface, slots, hole.removed) || seams.differ(surface, slots, hole.ring[after])
+    wedges.differ(surface, slots, [hole.removed, hole.ring[after]])
 }

@@ -6,7 +6,7 @@
 
 use super::options::Placement;
 use crate::history::History;
-use crate::mesh::{Numbering, Renumbering, Seams, Surface};
+use crate::mesh::{Numbering, Renumbering, Surface, Wedges};
 
 /// The vertices of the input and of the history at each vertex of a surface.
 pub struct Names {
@@ -23,24 +23,24 @@ enum HistoryNames {
     /// The vertex of the surface. Whenever it moves it becomes another one in the history.
     Vertex(Vec<u32>),
     /// The triangle as well: a vertex of the surface at a seam has several.
-    Corner(Seams),
+    Corner(Wedges),
 }
 
 impl Names {
-    /// Names for a surface with the given seams, if it has any.
-    pub fn new(numbering: Numbering, seams: Option<Seams>, placement: Placement) -> Self {
-        let in_history = match (seams, placement) {
-            (Some(seams), _) => HistoryNames::Corner(seams),
+    /// Names for a surface with the given wedges, if it has seams.
+    pub fn new(numbering: Numbering, wedges: Option<Wedges>, placement: Placement) -> Self {
+        let in_history = match (wedges, placement) {
+            (Some(wedges), _) => HistoryNames::Corner(wedges),
             (None, Placement::Best) => HistoryNames::Vertex(numbering.vertices().to_vec()),
             (None, Placement::Original) => HistoryNames::Surface,
         };
         Self { in_input: numbering.into_vertices(), in_history }
     }
 
-    /// The seams, if there are any.
-    pub fn seams(&self) -> Option<&Seams> {
+    /// The wedges, if the mesh has seams.
+    pub fn wedges(&self) -> Option<&Wedges> {
         match &self.in_history {
-            HistoryNames::Corner(seams) => Some(seams),
+            HistoryNames::Corner(wedges) => Some(wedges),
             HistoryNames::Surface | HistoryNames::Vertex(_) => None,
         }
     }
@@ -50,13 +50,13 @@ impl Names {
         match &self.in_history {
             HistoryNames::Surface => surface.corners(slot),
             HistoryNames::Vertex(names) => surface.corners(slot).map(|v| names[v as usize]),
-            HistoryNames::Corner(seams) => seams.corners(slot),
+            HistoryNames::Corner(wedges) => wedges.corners(slot),
         }
     }
 
     /// Whether all triangles at `v` have the same vertex of the history there.
     pub fn is_single(&self, surface: &Surface, v: u32) -> bool {
-        self.seams().is_none_or(|seams| seams.only_vertex(surface, v).is_some())
+        self.wedges().is_none_or(|wedges| wedges.only_at(surface, v).is_some())
     }
 
     /// Makes `v`, which [is single](Self::is_single), the vertex `new` of the history from now on,
@@ -65,21 +65,21 @@ impl Names {
         match &mut self.in_history {
             HistoryNames::Surface => v,
             HistoryNames::Vertex(names) => std::mem::replace(&mut names[v as usize], new),
-            HistoryNames::Corner(seams) => seams.rename(surface, v, new),
+            HistoryNames::Corner(wedges) => wedges.replace_at(surface, v, new),
         }
     }
 
     /// Sets the vertices of the history in `slots`; does nothing without seams.
     pub fn set(&mut self, slots: &[u32], vertices: &[[u32; 3]]) {
-        if let HistoryNames::Corner(seams) = &mut self.in_history {
-            slots.iter().zip(vertices).for_each(|(&slot, &vertices)| seams.set(slot, vertices));
+        if let HistoryNames::Corner(wedges) = &mut self.in_history {
+            slots.iter().zip(vertices).for_each(|(&slot, &vertices)| wedges.set(slot, vertices));
         }
     }
 
     /// Gives every slot its new number.
     pub fn renumber_slots(&mut self, slots: &Renumbering) {
-        if let HistoryNames::Corner(seams) = &mut self.in_history {
-            seams.renumber_slots(slots);
+        if let HistoryNames::Corner(wedges) = &mut self.in_history {
+            wedges.renumber_slots(slots);
         }
     }
 

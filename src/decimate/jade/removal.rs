@@ -4,7 +4,7 @@ use super::candidate::{Refusal, Scratch, Situation, fill};
 use super::names::Names;
 use crate::bound::{Change, Limits, Replacement};
 use crate::history::Recorder;
-use crate::mesh::{Filling, Hole, Seams, Surface};
+use crate::mesh::{Filling, Hole, Surface, Wedges};
 
 /// All that a removal changes.
 #[derive(Clone, Debug)]
@@ -39,8 +39,8 @@ pub fn plan(
         change,
         dying: hole.slots.iter().map(|&slot| names.corners(surface, slot)).collect(),
         born_at_seams: names
-            .seams()
-            .map_or_else(Vec::new, |seams| seam_vertices(surface, seams, hole, filling)),
+            .wedges()
+            .map_or_else(Vec::new, |wedges| seam_vertices(surface, wedges, hole, filling)),
         filling: filling.clone(),
         hole: hole.without_points(),
     }))
@@ -85,13 +85,13 @@ fn ascending<const N: usize>(mut vertices: [u32; N]) -> [u32; N] {
 
 /// The vertices of the filling's triangles: at each ring point the one that the star has on the
 /// same side of the seam.
-fn seam_vertices(surface: &Surface, seams: &Seams, hole: &Hole, filling: &Filling) -> Vec<[u32; 3]> {
+fn seam_vertices(surface: &Surface, wedges: &Wedges, hole: &Hole, filling: &Filling) -> Vec<[u32; 3]> {
     let corner = |t: usize, i: u8| {
         // A part of the filling runs round from its start to its end, so only its start lies before
         // its triangles.
         let (i, is_start) = (usize::from(i), i == filling.part_start(t));
         let slot = if is_start { hole.slot_after(i) } else { hole.slot_before(i) };
-        seams.vertex(surface, slot, hole.ring[i])
+        wedges.at(surface, slot, hole.ring[i])
     };
     (0..filling.triangles.len()).map(|t| filling.triangles[t].map(|i| corner(t, i))).collect()
 }

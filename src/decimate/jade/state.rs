@@ -7,7 +7,7 @@ use crate::bound::GlobalError;
 use crate::decimate::{Decimated, Input, add_copies};
 use crate::geometry::bounds::Bounds;
 use crate::history::Recorder;
-use crate::mesh::{Numbering, Repaired, Seams, Surface};
+use crate::mesh::{Numbering, Repaired, Surface, Wedges};
 use nephrite_formats::TriangleMesh;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -45,7 +45,7 @@ impl State {
             Placement::Original => None,
             Placement::Best => Some(Moves::new(&rest.positions, triangles.len())),
         };
-        let (mut triangles, seams) = Seams::part(triangles, points, looks);
+        let (mut triangles, wedges) = Wedges::part(triangles, points, looks);
         triangles.as_flattened_mut().iter_mut().for_each(|v| *v = numbering.place(*v));
         let positions = numbering.arrange(&rest.positions);
         if moves.is_none() {
@@ -59,7 +59,7 @@ impl State {
             error: GlobalError::new(options.estimate_kind(), &surface, rest.rounding),
             recorder: Recorder::new(surface.n_slots(), surface.n_vertices(), rest.rounding),
             surface,
-            names: Names::new(numbering, seams, options.placement()),
+            names: Names::new(numbering, wedges, options.placement()),
             cos_feature_angle,
             options: *options,
             moves,

@@ -5,11 +5,11 @@ use crate::bound::accumulated::round_up;
 
 /// Errors that deletions have left at each vertex (equation 5).
 #[derive(Clone, Debug)]
-pub struct Accumulated {
+pub struct AccumulatedErrors {
     errors: Vec<f32>,
 }
 
-impl Accumulated {
+impl AccumulatedErrors {
     /// Nothing was deleted yet.
     pub fn new(n_vertices: usize) -> Self {
         Self { errors: vec![0.0; n_vertices] }
@@ -26,8 +26,8 @@ impl Accumulated {
         self.errors.push(self.errors[v as usize]);
     }
 
-    /// The ring's centre goes: each neighbour is left with the distance and the error that had come together at the centre or
-    /// at itself.
+    /// The ring's centre goes: each neighbour is left with the distance and the error that had come
+    /// together at the centre or at itself.
     pub fn distribute(&mut self, ring: &Ring, distance: f64) {
         let own = self.at(ring.center);
         for &r in &ring.vertices {

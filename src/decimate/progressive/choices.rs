@@ -1,6 +1,7 @@
-//! What is known of the vertices in the queue, so that nothing is found out twice.
+//! What is known of the vertices in the queue, so that nothing is computed twice.
 
-/// For each vertex, whether its error in the queue is that of its star as it is now, and the collapse that was found for it.
+/// For each vertex, whether its error in the queue is that of its star as it is now, and the
+/// collapse that was found for it.
 #[derive(Clone, Debug, Default)]
 pub struct Choices {
     known: Vec<Known>,
@@ -13,7 +14,8 @@ enum Known {
     Nothing,
     /// The vertex is queued with its local error.
     Measured,
-    /// The vertex is queued with the error of its collapse into this neighbour, which leaves this distance.
+    /// The vertex is queued with the error of its collapse into this neighbour, which leaves this
+    /// distance.
     Chosen(u32, f64),
 }
 

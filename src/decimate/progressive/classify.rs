@@ -1,18 +1,17 @@
-//! Vertex classification (section 4.2): seven classes from the topology of the star, its feature edges and its areas.
+//! Vertex classification (section 4.2): seven classes from the topology of the star, its feature
+//! edges and its areas.
 //!
-//! A corner, as in the paper, is never collapsed as it stands: it is split along its feature edges when nothing else can be
-//! done. Seams of attributes count as feature edges.
+//! A corner, as in the paper, is never collapsed as it stands: it is split along its feature edges
+//! when nothing else can be done. Seams of attributes count as feature edges.
 
-use super::complex::Complex;
-use super::error::{AveragePlane, spoke};
+use super::average_plane::{AveragePlane, spoke};
 use super::ring::{Ring, Shape};
-use super::wedges::Wedges;
 use crate::geometry::vector::{Vector, dot};
-use crate::mesh::facing_edge;
+use crate::mesh::{Surface, Wedges, facing_edge};
 
 /// The classes; the first is for a vertex that has gone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Class {
+pub enum VertexClass {
     /// No triangle.
     #[default]
     Empty,
@@ -34,7 +33,7 @@ pub enum Class {
     Locked,
 }
 
-impl Class {
+impl VertexClass {
     /// Whether a collapse may be tried.
     pub fn may_collapse(self) -> bool {
         !matches!(self, Self::Empty | Self::NonManifold | Self::Corner | Self::Locked)
@@ -69,34 +68,34 @@ impl Geometry {
     /// Takes the ring's surroundings. O(valence).
     pub fn gather(
         &mut self,
-        complex: &Complex,
+        surface: &Surface,
         wedges: Option<&Wedges>,
         ring: &Ring,
         cos_feature_angle: f64,
     ) {
-        self.apex = complex.point(ring.center);
+        self.apex = surface.point(ring.center);
         self.plane = AveragePlane::default();
         self.features.clear();
         self.normals.clear();
         if ring.shape == Shape::NonManifold {
             self.points.clear();
-            self.add_loose_triangles(complex, ring);
+            self.add_loose_triangles(surface, ring);
         } else {
-            ring.positions(complex, &mut self.points);
+            ring.positions(surface, &mut self.points);
             for i in 0..ring.len() {
                 let ends = [i, ring.next(i)].map(|i| spoke(self.apex, self.points[i]));
                 self.normals.push(self.plane.add(ends[0], ends[1]));
             }
-            self.find_features(complex, wedges, ring, cos_feature_angle);
+            self.find_features(surface, wedges, ring, cos_feature_angle);
         }
         self.area = 0.5 * self.plane.weight;
         self.is_degenerate = self.normals.iter().any(|&(_, size)| size <= 0.0);
     }
 
-    fn add_loose_triangles(&mut self, complex: &Complex, ring: &Ring) {
+    fn add_loose_triangles(&mut self, surface: &Surface, ring: &Ring) {
         for &slot in &ring.slots {
-            let (from, to) = facing_edge(complex.corners(slot), ring.center);
-            let ends = [from, to].map(|v| spoke(self.apex, complex.point(v)));
+            let (from, to) = facing_edge(surface.corners(slot), ring.center);
+            let ends = [from, to].map(|v| spoke(self.apex, surface.point(v)));
             self.normals.push(self.plane.add(ends[0], ends[1]));
         }
     }
@@ -104,7 +103,7 @@ impl Geometry {
     /// Edges where the normals turn by more than the feature angle, or where a seam runs.
     fn find_features(
         &mut self,
-        complex: &Complex,
+        surface: &Surface,
         wedges: Option<&Wedges>,
         ring: &Ring,
         cos_feature_angle: f64,
@@ -117,7 +116,7 @@ impl Geometry {
             let is_seam = || {
                 let slots = [ring.slots[before], ring.slots[after]];
                 let edge = [ring.center, ring.vertices[after]];
-                wedges.is_some_and(|wedges| wedges.differ(complex, slots, edge))
+                wedges.is_some_and(|wedges| wedges.differ(surface, slots, edge))
             };
             if dot(a, b) < cos_feature_angle * (a_size * b_size) || is_seam() {
                 self.features.push(after);
@@ -127,29 +126,29 @@ impl Geometry {
 }
 
 /// Classifies the vertex of `ring`. O(1) after [`Geometry::gather`].
-pub fn classify(complex: &Complex, ring: &Ring, geometry: &Geometry) -> Class {
+pub fn classify(surface: &Surface, ring: &Ring, geometry: &Geometry) -> VertexClass {
     let n_features = geometry.features.len();
     match ring.shape {
-        Shape::Empty => Class::Empty,
-        _ if complex.is_locked(ring.center) => Class::Locked,
-        Shape::NonManifold => Class::NonManifold,
+        Shape::Empty => VertexClass::Empty,
+        _ if surface.is_locked(ring.center) => VertexClass::Locked,
+        Shape::NonManifold => VertexClass::NonManifold,
         Shape::Cycle => match geometry.features[..] {
-            [] | [_] if geometry.is_degenerate => Class::Degenerate,
-            [] | [_] => Class::Simple,
+            [] | [_] if geometry.is_degenerate => VertexClass::Degenerate,
+            [] | [_] => VertexClass::Simple,
             // The two sides of one triangle fold over both edges and yet hold nothing in place.
-            [_, _] if ring.len() == 2 => Class::Simple,
-            [i, j] => Class::InteriorEdge([i, j]),
-            _ => Class::Corner,
+            [_, _] if ring.len() == 2 => VertexClass::Simple,
+            [i, j] => VertexClass::InteriorEdge([i, j]),
+            _ => VertexClass::Corner,
         },
-        Shape::Chain if n_features > 0 => Class::Corner,
+        Shape::Chain if n_features > 0 => VertexClass::Corner,
         Shape::Chain => {
             let ends = [ring.vertices[0], ring.vertices[ring.vertices.len() - 1]];
-            if ring.len() >= 3 && complex.coincide(ends[0], ends[1]) {
-                Class::CrackTip
+            if ring.len() >= 3 && surface.coincide(ends[0], ends[1]) {
+                VertexClass::CrackTip
             } else if geometry.is_degenerate {
-                Class::Degenerate
+                VertexClass::Degenerate
             } else {
-                Class::Boundary
+                VertexClass::Boundary
             }
         }
     }

@@ -1,19 +1,22 @@
-//! Which edge a vertex is collapsed along (section 4.5): one that leaves a valid fan, feature edges alone where there are any.
+//! Which edge a vertex is collapsed along (section 4.5): one that leaves a valid fan, feature edges
+//! alone where there are any.
 //!
-//! The paper takes the shortest such edge, and finds that good with small feature angles. Here the one with the least actual
-//! error is taken: the fandisk at 2,020 triangles is off by 0.07 % of its diagonal instead of 0.5 %.
+//! The paper takes the shortest such edge, and finds that good with small feature angles. Here the
+//! one with the least actual error is taken: the fandisk at 2,020 triangles is off by 0.07 % of its
+//! diagonal instead of 0.5 %.
 
-use super::classify::{Class, Geometry};
-use super::complex::Complex;
-use super::error::{FEW, actual_error, fan_of, vanishes};
+use super::classify::{Geometry, VertexClass};
+use super::error::{MAX_COMPARED_VALENCE, actual_error, fan_of, vanishes};
 use super::ring::Ring;
 use super::shadow::Shadow;
 use super::vanished::beside;
 use crate::geometry::vector::{length, length_sq, sub};
+use crate::mesh::Surface;
 
 /// Stars of more triangles are not walked to mark their neighbours.
 const MARKED_VALENCE: usize = 64;
-/// Edges that are tried at a vertex, the shortest ones: finding them all at one of a hundred thousand would take its square.
+/// Edges that are tried at a vertex, the shortest ones: finding them all at one of a hundred
+/// thousand would take its square.
 const MAX_TRIED: usize = 64;
 
 /// A collapse that may be carried out.
@@ -40,12 +43,12 @@ pub enum Contact {
 
 /// Marks on vertices, all of them wiped at once.
 #[derive(Clone, Debug, Default)]
-pub struct Marks {
+pub struct VertexMarks {
     marked: Vec<u32>,
     now: u32,
 }
 
-impl Marks {
+impl VertexMarks {
     /// Removes all marks and makes room for the points.
     fn wipe(&mut self, n_points: usize) {
         self.now = self.now.wrapping_add(1);
@@ -67,33 +70,38 @@ impl Marks {
 
 /// A vertex with its surroundings, whose collapse is looked for.
 #[derive(Clone, Copy, Debug)]
-pub struct Candidate<'a> {
+pub struct CollapseCandidate<'a> {
     /// The mesh.
-    pub complex: &'a Complex,
+    pub surface: &'a Surface,
     /// The vertex and its star.
     pub ring: &'a Ring,
     /// The same in space.
     pub geometry: &'a Geometry,
     /// What it is.
-    pub class: Class,
+    pub class: VertexClass,
 }
 
-/// The collapse of the ring's centre along the valid edge that leaves the least error; along the shortest valid one where
-/// there are more than [`FEW`] triangles. O(valence^3) for few, O(valence) for others.
-pub fn best_valid(candidate: Candidate<'_>, shadow: &mut Shadow, marks: &mut Marks) -> Option<Collapse> {
-    let Candidate { complex, ring, geometry, class } = candidate;
+/// The collapse of the ring's centre along the valid edge that leaves the least error; along the
+/// shortest valid one where there are more than [`MAX_COMPARED_VALENCE`] triangles. O(valence^3)
+/// for few, O(valence) for others.
+pub fn best_valid(
+    candidate: CollapseCandidate<'_>,
+    shadow: &mut Shadow,
+    marks: &mut VertexMarks,
+) -> Option<Collapse> {
+    let CollapseCandidate { surface, ring, geometry, class } = candidate;
     let last = ring.vertices.len().checked_sub(1)?;
     let ends = [0, last];
     shadow.gather(ring, geometry);
     match class {
-        Class::Empty | Class::NonManifold | Class::Corner | Class::Locked => None,
-        Class::InteriorEdge(ends) => best_of(candidate, shadow, ends.into_iter(), marks),
-        Class::Boundary => best_of(candidate, shadow, ends.into_iter(), marks),
-        Class::Degenerate if !ring.is_cycle() => best_of(candidate, shadow, ends.into_iter(), marks),
-        Class::Simple | Class::Degenerate => best_of(candidate, shadow, 0..=last, marks),
-        Class::CrackTip => {
+        VertexClass::Empty | VertexClass::NonManifold | VertexClass::Corner | VertexClass::Locked => None,
+        VertexClass::InteriorEdge(ends) => best_of(candidate, shadow, ends.into_iter(), marks),
+        VertexClass::Boundary => best_of(candidate, shadow, ends.into_iter(), marks),
+        VertexClass::Degenerate if !ring.is_cycle() => best_of(candidate, shadow, ends.into_iter(), marks),
+        VertexClass::Simple | VertexClass::Degenerate => best_of(candidate, shadow, 0..=last, marks),
+        VertexClass::CrackTip => {
             shadow.close_crack();
-            let may_go = |into: &usize| shadow.is_valid_fan(*into) && !breaks_lock(complex, ring, *into);
+            let may_go = |into: &usize| shadow.is_valid_fan(*into) && !breaks_lock(surface, ring, *into);
             nearest_first(geometry, 0..last).find(may_go).map(|into| Collapse {
                 into,
                 contact: Contact::None,
@@ -103,31 +111,32 @@ pub fn best_valid(candidate: Candidate<'_>, shadow: &mut Shadow, marks: &mut Mar
     }
 }
 
-/// Of few triangles, the candidate with the least error; of many, the nearest valid one. How a fan would meet the rest of the
-/// mesh is asked last, of the one that would be taken.
+/// Of few triangles, the candidate with the least error; of many, the nearest valid one. How a fan
+/// would meet the rest of the mesh is asked last, of the one that would be taken.
 fn best_of(
-    Candidate { complex, ring, geometry, .. }: Candidate<'_>,
+    CollapseCandidate { surface, ring, geometry, .. }: CollapseCandidate<'_>,
     shadow: &Shadow,
     neighbors: impl Iterator<Item = usize> + Clone,
-    marks: &mut Marks,
+    marks: &mut VertexMarks,
 ) -> Option<Collapse> {
     if vanishes(ring) {
         // With nothing beside it, how far that is is found out when its turn comes.
-        let distance = beside(complex, ring).map_or(geometry.area.sqrt(), |(_, distance)| distance);
-        let contact_at = |into: usize| Some((into, contact(complex, ring, into, marks)?));
+        let distance = beside(surface, ring).map_or(geometry.area.sqrt(), |(_, distance)| distance);
+        let contact_at = |into: usize| Some((into, contact(surface, ring, into, marks)?));
         let found = { neighbors }.find_map(contact_at);
         return found.map(|(into, contact)| Collapse { into, contact, distance });
     }
-    if ring.len() > FEW {
+    if ring.len() > MAX_COMPARED_VALENCE {
         return nearest_first(geometry, neighbors).find_map(|into| {
             let contact =
-                if shadow.is_valid_fan(into) { contact(complex, ring, into, marks)? } else { return None };
+                if shadow.is_valid_fan(into) { contact(surface, ring, into, marks)? } else { return None };
             let distance = actual_error(ring, geometry, into, f64::INFINITY)?;
             let distance = shadow.spread().map_or(distance, |spread| distance.min(spread));
             Some(Collapse { into, contact, distance })
         });
     }
-    // A star of few triangles has at most one neighbour more than triangles: fewer than a word has bits.
+    // A star of few triangles has at most one neighbour more than triangles: fewer than a word has
+    // bits.
     let mut excluded = 0_u32;
     loop {
         let mut best: Option<(usize, f64)> = None;
@@ -148,22 +157,23 @@ fn best_of(
             best = distance.map(|distance| (into, distance)).or(best);
         }
         let (into, distance) = best?;
-        if let Some(contact) = contact(complex, ring, into, marks) {
+        if let Some(contact) = contact(surface, ring, into, marks) {
             return Some(Collapse { into, contact, distance });
         }
         excluded |= 1 << into;
     }
 }
 
-/// The collapse into neighbour `into`, known to leave this distance, unless the mesh around has made it impossible since.
+/// The collapse into neighbour `into`, known to leave this distance, unless the mesh around has
+/// made it impossible since.
 pub fn still_valid(
-    complex: &Complex,
+    surface: &Surface,
     ring: &Ring,
     (into, distance): (u32, f64),
-    marks: &mut Marks,
+    marks: &mut VertexMarks,
 ) -> Option<Collapse> {
     let into = ring.vertices.iter().position(|&r| r == into)?;
-    let contact = contact(complex, ring, into, marks)?;
+    let contact = contact(surface, ring, into, marks)?;
     Some(Collapse { into, contact, distance })
 }
 
@@ -184,12 +194,12 @@ fn nearest_first(
 
 /// Whether the collapse into neighbour `into` would join two locked points by a new edge, take an
 /// edge between two of them away, or the last triangle of one.
-fn breaks_lock(complex: &Complex, ring: &Ring, into: usize) -> bool {
-    if !complex.has_locked() {
+fn breaks_lock(surface: &Surface, ring: &Ring, into: usize) -> bool {
+    if !surface.has_locked() {
         return false;
     }
-    let is_locked = |&i: &usize| complex.is_locked(ring.vertices[i]);
-    let is_last = |i: usize| complex.star(ring.vertices[i]).iter().all(|slot| ring.slots.contains(slot));
+    let is_locked = |&i: &usize| surface.is_locked(ring.vertices[i]);
+    let is_last = |i: usize| surface.star(ring.vertices[i]).iter().all(|slot| ring.slots.contains(slot));
     let is_in_fan = |i: usize| fan_of(ring, into).any(|pair| pair.contains(&i));
     let mut others = (0..ring.vertices.len()).filter(|&i| i != into).filter(is_locked);
     if is_locked(&into) {
@@ -200,18 +210,18 @@ fn breaks_lock(complex: &Complex, ring: &Ring, into: usize) -> bool {
     }
 }
 
-/// How the fan from neighbour `into` would meet the rest of the mesh. `None` if one of its triangles is there already, or if a locked
-/// point forbids it.
-fn contact(complex: &Complex, ring: &Ring, into: usize, marks: &mut Marks) -> Option<Contact> {
-    if breaks_lock(complex, ring, into) {
+/// How the fan from neighbour `into` would meet the rest of the mesh. `None` if one of its
+/// triangles is there already, or if a locked point forbids it.
+fn contact(surface: &Surface, ring: &Ring, into: usize, marks: &mut VertexMarks) -> Option<Contact> {
+    if breaks_lock(surface, ring, into) {
         return None;
     }
     let target = ring.vertices[into];
-    let is_marking = complex.star(target).len() <= MARKED_VALENCE;
+    let is_marking = surface.star(target).len() <= MARKED_VALENCE;
     if is_marking {
-        marks.wipe(complex.n_points());
-        for &slot in complex.star(target) {
-            let corners = complex.corners(slot);
+        marks.wipe(surface.n_vertices());
+        for &slot in surface.star(target) {
+            let corners = surface.corners(slot);
             if !corners.contains(&ring.center) {
                 corners.into_iter().for_each(|v| marks.mark(v));
             }
@@ -224,7 +234,7 @@ fn contact(complex: &Complex, ring: &Ring, into: usize, marks: &mut Marks) -> Op
         if j == into || ring.are_adjacent(into, j) || !may_meet(r) {
             continue;
         }
-        let n_faces = complex.n_faces(target, r);
+        let n_faces = surface.n_faces(target, r);
         let is_new_boundary = !ring.is_cycle() && into.abs_diff(j) + 1 == n_around;
         if n_faces == 1 && is_new_boundary && contact == Contact::None {
             contact = Contact::ClosesHole;
@@ -234,8 +244,8 @@ fn contact(complex: &Complex, ring: &Ring, into: usize, marks: &mut Marks) -> Op
     }
     let is_there = |[i, j]: [usize; 2]| {
         let slot = ring.slots[i];
-        let renamed = complex.corners(slot).map(|v| if v == ring.center { target } else { v });
-        [i, j].into_iter().all(|i| may_meet(ring.vertices[i])) && complex.has_triangle(renamed)
+        let renamed = surface.corners(slot).map(|v| if v == ring.center { target } else { v });
+        [i, j].into_iter().all(|i| may_meet(ring.vertices[i])) && surface.has_oriented_triangle(renamed)
     };
     if fan_of(ring, into).any(is_there) { None } else { Some(contact) }
 }

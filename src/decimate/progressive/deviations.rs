@@ -1,9 +1,10 @@
 //! A bound on how far the mesh and the input are apart, triangle by triangle.
 //!
-//! Every triangle carries a bound: no point of it is farther from the input, and no point of the input that it stands for is farther from
-//! it. A collapse puts a fan in the place of a star. If no point of either is farther than `d` from the other, then the bound of the star's
-//! worst triangle and `d` together hold for all triangles of the fan. The proof of [`proof`](super::proof) states less as long as it
-//! lasts; this goes on through changes of topology.
+//! Every triangle carries a bound: no point of it is farther from the input, and no point of the
+//! input that it stands for is farther from it. A collapse puts a fan in the place of a star. If no
+//! point of either is farther than `d` from the other, then the bound of the star's worst triangle
+//! and `d` together hold for all triangles of the fan. The proof of [`proof`](super::proof) states
+//! less as long as it lasts; this goes on through changes of topology.
 
 use super::ring::Ring;
 use crate::bound::accumulated::round_up;

@@ -61,11 +61,12 @@ pub struct EventLog {
     tallies: Vec<Tally>,
 }
 
-/// Events that are listed one by one; the others are only counted. A file's metadata has room for some ten thousand.
+/// Events that are listed one by one; the others are only counted. A file's metadata has room for
+/// some ten thousand.
 pub const MAX_LISTED: usize = 2048;
 
 impl EventLog {
-    /// Writes an event down.
+    /// Records an event.
     pub fn add(&mut self, event: Event) {
         if self.events.len() < MAX_LISTED {
             self.events.push(event);
@@ -79,7 +80,7 @@ impl EventLog {
         }
     }
 
-    /// How often each kind happened, kinds that never did left out.
+    /// How often each kind happened, without kinds that never did.
     pub fn tallies(&self) -> impl Iterator<Item = &Tally> {
         KINDS.into_iter().filter_map(|kind| self.tallies.iter().find(|tally| tally.kind == kind))
     }

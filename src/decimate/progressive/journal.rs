@@ -1,4 +1,4 @@
-//! What the decimator did, written down: the history, and the operations that led from step to step.
+//! What the decimator did: the history, and the operations that lead from step to step.
 
 use crate::history::Recorder;
 use std::ops::Range;
@@ -6,8 +6,8 @@ use std::ops::Range;
 /// One operation on the vertices of the mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// `from` goes into `into`: triangles at both are gone, other triangles at `from` have the corner `into` instead. Of two
-    /// vertices without common triangles it is a merge.
+    /// `from` goes into `into`: triangles at both are gone, other triangles at `from` have the
+    /// corner `into` instead. Of two vertices without common triangles it is a merge.
     Collapse {
         /// The vertex that goes.
         from: u32,
@@ -25,7 +25,8 @@ pub enum Operation {
     },
 }
 
-/// All operations of a decimation in order. Slot `t` holds triangle `t` of the input until it is gone.
+/// All operations of a decimation in order. Slot `t` holds triangle `t` of the input until it is
+/// gone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
     /// The operations.
@@ -52,7 +53,8 @@ impl Journal {
         Self { recorder, n_vertices_in, trace: Trace::default() }
     }
 
-    /// The vertex of the input that a vertex is a copy of, perhaps of copies; itself for one of the input.
+    /// The vertex of the input that a vertex is a copy of, perhaps of copies; itself for one of the
+    /// input.
     pub fn origin(&self, mut vertex: u32) -> u32 {
         // A vertex is copied from an earlier one, so this ends.
         while let Some(copied) = vertex.checked_sub(self.n_vertices_in) {
@@ -61,12 +63,12 @@ impl Journal {
         vertex
     }
 
-    /// Writes a collapse or merge down.
+    /// Records a collapse or merge.
     pub fn collapse(&mut self, from: u32, into: u32) {
         self.trace.operations.push(Operation::Collapse { from, into });
     }
 
-    /// Writes a split down and gives the new vertex.
+    /// Records a split and returns the new vertex.
     pub fn split(&mut self, from: u32, slots: &[u32]) -> u32 {
         let copy = self.recorder.vertex();
         let start = self.trace.slots.len();

@@ -1,20 +1,21 @@
-//! Progressive decimation: edge collapses while they can be had, vertex splits where they cannot, down to nothing.
+//! Progressive decimation: edge collapses while any is valid, then vertex splits, down to no
+//! triangle.
 //!
-//! W. J. Schroeder, "A topology modifying progressive decimation algorithm", *IEEE Visualization* 1997. Vertices leave in
-//! the order of their error, each along its shortest valid edge. When no vertex has a valid edge left, the mesh is split at
-//! one: along feature edges, into manifold pieces, or in half. Pieces can always be collapsed, so every triangle count is
-//! reached.
+//! W. J. Schroeder, "A topology modifying progressive decimation algorithm", *IEEE Visualization*
+//! 1997. Vertices leave in the order of their error, each along its shortest valid edge. When no
+//!       vertex has a valid edge left, one is split: along its feature edges, into manifold pieces,
+//!       or in half. Pieces can always be collapsed, so every triangle count is reached.
 //!
-//! The driver is [`decimation`]; its parts bear the names of the paper's sections: [`classify`] (4.2), [`error`] (4.3),
-//! [`queue`] (4.4), [`collapse`] (4.5), [`split`] (4.6). A [`proof`] of the error is carried along for as long as nothing
-//! but collapses that keep the topology happened; [`events`] are the moments at which it changed.
+//! The driver is [`run`](run()); its parts bear the names of the paper's sections: [`classify`]
+//! (4.2), [`error`] (4.3), [`queue`] (4.4), [`collapse`] (4.5), [`split`] (4.6). A [`proof`] of the
+//! error is carried along for as long as nothing but collapses that keep the topology happened;
+//! [`events`] are the moments at which it changed.
 
 pub mod accumulated;
+mod average_plane;
 pub mod choices;
 pub mod classify;
 pub mod collapse;
-pub mod complex;
-pub mod decimation;
 pub mod deviations;
 pub mod error;
 pub mod events;
@@ -24,15 +25,16 @@ pub mod proof;
 pub mod queue;
 pub mod ring;
 mod run;
+mod schedule;
 pub mod shadow;
 pub mod split;
+mod state;
 mod steps;
 mod turns;
 pub mod vanished;
 mod view;
-pub mod wedges;
+mod wedge_targets;
 
-pub use decimation::{Decimation, Settings};
 use events::EventLog;
 use journal::{Counts, Trace};
 pub use options::{ProgressiveBound, ProgressiveOptions};

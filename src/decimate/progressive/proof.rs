@@ -1,16 +1,17 @@
 //! The certified bound, for as long as one can be stated.
 //!
-//! A collapse that changes no topology is the removal of a vertex whose hole is filled by a fan, which is all that
-//! [`crate::bound::certified`] asks for. The first change of topology ends the proof: its map is no longer onto, or no longer
-//! continuous. Splits made before anything else do not matter: they leave the point set as it is, and the map starts on it.
+//! A collapse that changes no topology is the removal of a vertex whose hole is filled by a fan,
+//! which is all that [`crate::bound::certified`] asks for. The first change of topology ends the
+//! proof: its map is no longer onto, or no longer continuous. Splits made before anything else do
+//! not matter: they leave the point set as it is, and the map starts on it.
 
-use super::complex::Complex;
 use super::ring::Ring;
 use crate::bound::Replacement;
 use crate::bound::certified::{Certified, MapChange, Transfer};
 use crate::mesh::{Filling, Hole, Surface};
 
-/// The map from the input onto the current mesh, and that mesh once more in the form that the map refers to.
+/// The map from the input onto the current mesh, and that mesh once more in the form that the map
+/// refers to.
 #[derive(Clone, Debug)]
 pub struct Proof {
     surface: Surface,
@@ -21,10 +22,10 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// The identity on `complex`, which is the input but for `rounding`.
-    pub fn new(complex: &Complex, rounding: f64) -> Self {
-        let triangles = complex.iter().map(|(_, corners)| corners).collect();
-        let surface = Surface::new(complex.positions().to_vec(), triangles);
+    /// The identity on `mesh`, which is the input but for `rounding`.
+    pub fn new(mesh: &Surface, rounding: f64) -> Self {
+        let triangles = mesh.iter().map(|(_, corners)| corners).collect();
+        let surface = Surface::new(mesh.positions().to_vec(), triangles);
         Self {
             certified: Certified::new(&surface, rounding),
             surface,
@@ -34,9 +35,9 @@ impl Proof {
         }
     }
 
-    /// Plans the collapse of the ring's centre into neighbour `into`, which carries the map over to the fan that is left. The plan
-    /// fails if no bound of at most `limit` follows. `None` if the star is not one that the proof can follow. O(input mapped into
-    /// the star).
+    /// Plans the collapse of the ring's centre into neighbour `into`, which carries the map over to
+    /// the fan that is left. The plan fails if no bound of at most `limit` follows. `None` if the
+    /// star is not one that the proof can follow. O(input mapped into the star).
     pub fn plan(&mut self, ring: &Ring, into: usize, limit: f64) -> Option<Result<Plan<'_>, AboveLimit>> {
         let Self { surface, certified, hole, filling, transfer } = self;
         hole.gather(surface, ring.center).ok()?;
@@ -59,8 +60,8 @@ impl Proof {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AboveLimit;
 
-/// A collapse whose bound is known. Holds the change of the map that the bound was found for, so that no other one can be carried
-/// out under this bound.
+/// A collapse whose bound is known. Holds the change of the map that the bound was found for, so
+/// that no other one can be carried out under this bound.
 #[derive(Debug)]
 pub struct Plan<'a> {
     proof: &'a mut Proof,
@@ -74,7 +75,8 @@ impl Plan<'_> {
         self.error
     }
 
-    /// Applies the change to the map and to the mesh of the proof. False if there is no room for it; then the proof ends here.
+    /// Applies the change to the map and to the mesh of the proof. False if there is no room for
+    /// it; then the proof ends here.
     pub fn carry_out(self) -> bool {
         let Self { proof: Proof { surface, certified, hole, filling, .. }, change, .. } = self;
         let changes = std::iter::once((&*hole, &change));
@@ -89,8 +91,8 @@ impl Plan<'_> {
     }
 }
 
-/// Whether the fan is one triangle with the corners of another, in either orientation: the two would share all edges, and a chain from
-/// one to the other would not tell which it crosses.
+/// Whether the fan is one triangle with the corners of another, in either orientation: the two
+/// would share all edges, and a chain from one to the other would not tell which it crosses.
 fn is_lid(surface: &Surface, hole: &Hole) -> bool {
     hole.closed && hole.n_ring() == 3 && surface.has_triangle([hole.ring[0], hole.ring[1], hole.ring[2]])
 }

@@ -1,18 +1,20 @@
 //! Vertices in the order of their errors (section 4.4): a heap from which any vertex can be taken.
 //!
-//! The paper's heap is binary. This one has four children a node, which halves its height, and keeps key and vertex in one
-//! word, so that a comparison touches nothing else.
+//! The paper's heap is binary. This one has four children a node, which halves its height, and
+//! keeps key and vertex in one word, so that a comparison touches nothing else.
 //!
-//! Equal errors are ordered by vertex, the even ones first, then every second of those that are left, and so on: by the bits of their
-//! numbers, the lowest foremost. Flat parts have nothing but equal errors, and vertices of near numbers are neighbours there; one
-//! after the other they would go into one vertex, whose star grows, and whose triangles reach ever farther over the part.
+//! Equal errors are ordered by vertex, the even ones first, then every second of those that are
+//! left, and so on: by the bits of their numbers, the lowest foremost. Flat parts have nothing but
+//! equal errors, and vertices of near numbers are neighbours there; one after the other they would
+//! go into one vertex, whose star grows, and whose triangles reach ever farther over the part.
 
 use crate::flat::NO_INDEX;
 
 /// A priority queue of vertices, the least error first.
 #[derive(Clone, Debug, Default)]
-pub struct Queue {
-    /// Error bits above, those of the vertex below in reverse; children of `i` are `4 i + 1 ..= 4 i + 4`.
+pub struct VertexQueue {
+    /// Error bits above, those of the vertex below in reverse; children of `i` are
+    /// `4 i + 1 ..= 4 i + 4`.
     heap: Vec<u64>,
     /// Where each vertex is in the heap, or [`NO_INDEX`].
     places: Vec<u32>,
@@ -20,7 +22,7 @@ pub struct Queue {
 
 const CHILDREN: usize = 4;
 
-impl Queue {
+impl VertexQueue {
     /// An empty queue for vertices below `n_vertices`.
     pub fn new(n_vertices: usize) -> Self {
         Self { heap: Vec::with_capacity(n_vertices), places: vec![NO_INDEX; n_vertices] }
@@ -47,7 +49,8 @@ impl Queue {
         self.heap.first().map(|&entry| unpack(entry).1)
     }
 
-    /// Queues `vertex`, or moves it to where its new error belongs. Errors are not negative. O(log n).
+    /// Queues `vertex`, or moves it to where its new error belongs. Errors are not negative. O(log
+    /// n).
     pub fn set(&mut self, vertex: u32, error: f64) {
         let entry = pack(vertex, error);
         let place = self.places[vertex as usize];
@@ -64,7 +67,8 @@ impl Queue {
         }
     }
 
-    /// Takes the vertex with the least error, and that error as it was rounded for the queue. O(log n).
+    /// Takes the vertex with the least error, and that error as it was rounded for the queue. O(log
+    /// n).
     pub fn pop(&mut self) -> Option<(u32, f64)> {
         let &entry = self.heap.first()?;
         let (vertex, error) = unpack(entry);
@@ -155,7 +159,7 @@ mod tests {
     proptest! {
         #[test]
         fn agrees_with_a_sorted_map(operations in prop::collection::vec((0_u32..24, 0_u16..50, 0_u8..4), 0..400)) {
-            let mut queue = Queue::new(24);
+            let mut queue = VertexQueue::new(24);
             let mut errors: BTreeMap<u32, u16> = BTreeMap::new();
             for (vertex, error, what) in operations {
                 match what {
@@ -180,7 +184,7 @@ mod tests {
 
     #[test]
     fn of_equal_errors_every_second_goes_first() {
-        let mut queue = Queue::new(8);
+        let mut queue = VertexQueue::new(8);
         (0..8).for_each(|v| queue.set(v, 1.0));
         queue.set(5, 0.5);
         let order: Vec<u32> = std::iter::from_fn(|| queue.pop()).map(|(v, _)| v).collect();

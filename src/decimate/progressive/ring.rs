@@ -1,12 +1,12 @@
 //! The triangles at a vertex in order around it: the paper's loop.
 //!
-//! Most stars are one fan of a few triangles, and chaining them by trial is the fastest way. Any other star, of many triangles,
-//! of several fans, with edges of three faces or with neighbours that disagree about the orientation, is sorted instead.
+//! Most stars are one fan of a few triangles, and chaining them by trial is the fastest way. Any
+//! other star, of many triangles, of several fans, with edges of three faces or with neighbours
+//! that disagree about the orientation, is sorted instead.
 
-use super::complex::Complex;
 use crate::flat::{NO_INDEX, to_index};
 use crate::geometry::vector::Vector;
-use crate::mesh::facing_edge;
+use crate::mesh::{Surface, facing_edge};
 
 /// Stars of at most this many triangles are chained by trial.
 const MAX_CHAINED_VALENCE: usize = 24;
@@ -17,7 +17,8 @@ pub enum Shape {
     /// No triangle.
     #[default]
     Empty,
-    /// A full cycle: `vertices[i]`, `vertices[i + 1]` belong to `slots[i]`, and the last slot leads back to the first vertex.
+    /// A full cycle: `vertices[i]`, `vertices[i + 1]` belong to `slots[i]`, and the last slot leads
+    /// back to the first vertex.
     Cycle,
     /// A half cycle: one vertex more than slots, the first and the last on the boundary.
     Chain,
@@ -38,12 +39,12 @@ pub struct Ring {
     pub slots: Vec<u32>,
     /// Index into `slots` at which each fan starts.
     pub fan_starts: Vec<u32>,
-    spokes: Vec<Spoke>,
+    spokes: Vec<RingSpoke>,
 }
 
 /// A triangle of the star, seen from the vertex.
 #[derive(Clone, Copy, Debug)]
-struct Spoke {
+struct RingSpoke {
     from: u32,
     to: u32,
     slot: u32,
@@ -51,15 +52,15 @@ struct Spoke {
 
 impl Ring {
     /// Orders the star of `v`. O(valence log valence), and faster for few triangles.
-    pub fn gather(&mut self, complex: &Complex, v: u32) {
+    pub fn gather(&mut self, surface: &Surface, v: u32) {
         self.center = v;
         self.vertices.clear();
         self.slots.clear();
         self.fan_starts.clear();
         self.spokes.clear();
-        self.spokes.extend(complex.star(v).iter().map(|&slot| {
-            let (from, to) = facing_edge(complex.corners(slot), v);
-            Spoke { from, to, slot }
+        self.spokes.extend(surface.star(v).iter().map(|&slot| {
+            let (from, to) = facing_edge(surface.corners(slot), v);
+            RingSpoke { from, to, slot }
         }));
         self.shape = if self.spokes.is_empty() {
             Shape::Empty
@@ -95,12 +96,13 @@ impl Ring {
     }
 
     /// Positions of the neighbours, into `points`.
-    pub fn positions(&self, complex: &Complex, points: &mut Vec<Vector>) {
+    pub fn positions(&self, surface: &Surface, points: &mut Vec<Vector>) {
         points.clear();
-        points.extend(self.vertices.iter().map(|&r| complex.point(r)));
+        points.extend(self.vertices.iter().map(|&r| surface.point(r)));
     }
 
-    /// Puts the spokes in order by looking for each one's successor; false where that does not give one fan.
+    /// Puts the spokes in order by looking for each one's successor; false where that does not give
+    /// one fan.
     fn chain(&mut self) -> bool {
         let spokes = &mut self.spokes[..];
         let n = spokes.len();
@@ -118,7 +120,8 @@ impl Ring {
             spokes.swap(placed, placed + before);
             start = spokes[placed].from;
         }
-        // Forwards from the first, then backwards from the first: turn the second part round and put it in front.
+        // Forwards from the first, then backwards from the first: turn the second part round and
+        // put it in front.
         spokes[n_forward..].reverse();
         spokes.rotate_left(n_forward);
         true
@@ -176,13 +179,13 @@ impl Ring {
         }
     }
 
-    /// Takes the triangles of one fan, beginning at a triangle that is entered by one of its sides. Gives the vertex at which
-    /// the fan ends, or nothing for a cycle.
+    /// Takes the triangles of one fan, beginning at a triangle that is entered by one of its sides.
+    /// Gives the vertex at which the fan ends, or nothing for a cycle.
     fn walk(&mut self, links: &Links, start: (usize, usize), is_taken: &mut [bool]) -> Option<u32> {
         let (mut at, mut side) = start;
         loop {
             is_taken[at] = true;
-            let Spoke { from, to, slot } = self.spokes[at];
+            let RingSpoke { from, to, slot } = self.spokes[at];
             let ends = [from, to];
             self.vertices.push(ends[side]);
             self.slots.push(slot);
@@ -207,7 +210,7 @@ struct Links {
 }
 
 impl Links {
-    fn new(spokes: &[Spoke]) -> Self {
+    fn new(spokes: &[RingSpoke]) -> Self {
         let mut ends: Vec<(u32, u32)> = spokes
             .iter()
             .zip(0..)
@@ -239,7 +242,7 @@ mod tests {
     fn ring(triangles: &[[u32; 3]]) -> Ring {
         let n = triangles.as_flattened().iter().max().map_or(0, |&v| v as usize + 1);
         let mut ring = Ring::default();
-        ring.gather(&Complex::new(vec![[0.0; 3]; n], triangles.to_vec()), 0);
+        ring.gather(&Surface::new(vec![[0.0; 3]; n], triangles.to_vec()), 0);
         ring
     }
 

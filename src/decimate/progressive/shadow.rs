@@ -1,9 +1,10 @@
 //! A star seen along its average normal: where fans are valid, and how far they are from it.
 //!
-//! Seen that way, a star and the fan that is to take its place cover the same polygon, and the height of the one over the other is
-//! linear between a few places: the vertex, and where a new edge crosses an old one. The largest height is found there. It
-//! is no less than the distance between the two surfaces either way, and costs a few cross products where distances
-//! between points and triangles would cost fifty.
+//! Seen that way, a star and the fan that is to take its place cover the same polygon, and the
+//! height of the one over the other is linear between a few places: the vertex, and where a new
+//! edge crosses an old one. The largest height is found there. It is no less than the distance
+//! between the two surfaces either way, and costs a few cross products where distances between
+//! points and triangles would cost fifty.
 
 use super::classify::Geometry;
 use super::ring::Ring;
@@ -12,7 +13,8 @@ use crate::geometry::vector::{Vector, add_scaled, cross, dot, length_sq, sub};
 /// Sines below this count as no turn at all: the fan's triangle would be a line.
 const LEAST_SINE: f64 = 1e-6;
 
-/// The neighbours of a vertex, relative to it, over its average plane. Reused from vertex to vertex.
+/// The neighbours of a vertex, relative to it, over its average plane. Reused from vertex to
+/// vertex.
 #[derive(Clone, Debug, Default)]
 pub struct Shadow {
     points: Vec<Point>,
@@ -61,7 +63,8 @@ impl Shadow {
         self.is_height_field = ring.is_cycle() && self.surrounds_the_vertex();
     }
 
-    /// Leaves the last neighbour out, which is at the place of the first: the vertex at a crack's tip is then seen as surrounded.
+    /// Leaves the last neighbour out, which is at the place of the first: the vertex at a crack's
+    /// tip is then seen as surrounded.
     pub fn close_crack(&mut self) {
         self.points.pop();
     }
@@ -85,12 +88,14 @@ impl Shadow {
         n >= 3 && n_rounds == 1
     }
 
-    /// The half-space comparison: every plane through neighbour `into` and another neighbour, along the average normal, has the
-    /// loop's vertices before that one on one side and those behind it on the other.
+    /// The half-space comparison: every plane through neighbour `into` and another neighbour, along
+    /// the average normal, has the loop's vertices before that one on one side and those behind it
+    /// on the other.
     ///
-    /// Done as the paper has it that takes `n^2` plane equations. Seen from `into`, the loop must turn one way only, and no part
-    /// of it that a plane looks at may turn by half a circle; that is `3 n` of them. A fan of a single triangle, which no plane
-    /// cuts, must not be turned over either.
+    /// Done as the paper has it that takes `n^2` plane equations. Seen from `into`, the loop must
+    /// turn one way only, and no part of it that a plane looks at may turn by half a circle; that
+    /// is `3 n` of them. A fan of a single triangle, which no plane cuts, must not be turned over
+    /// either.
     pub fn is_valid_fan(&self, into: usize) -> bool {
         let n_others = self.points.len() - 1;
         if n_others < 2 {
@@ -116,8 +121,9 @@ impl Shadow {
         true
     }
 
-    /// Largest height between the star, a height field, and the valid fan from neighbour `into`; nothing where that is not below
-    /// `limit`. O(valence^2), and less where the limit is passed early.
+    /// Largest height between the star, a height field, and the valid fan from neighbour `into`;
+    /// nothing where that is not below `limit`. O(valence^2), and less where the limit is passed
+    /// early.
     pub fn height_over_fan(&self, into: usize, limit: f64) -> Option<f64> {
         let n = self.points.len();
         let target = self.points[into];
@@ -141,7 +147,8 @@ impl Shadow {
         (highest < limit).then_some(highest)
     }
 
-    /// What the heights of the vertex and its neighbours spread over, if the star is a height field: no valid fan is higher over it. O(valence).
+    /// What the heights of the vertex and its neighbours spread over, if the star is a height
+    /// field: no valid fan is higher over it. O(valence).
     pub fn spread(&self) -> Option<f64> {
         let heights = self.points.iter().map(|point| point.height);
         let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
@@ -171,7 +178,8 @@ impl Shadow {
     }
 }
 
-/// Two axes of the plane with this normal, and the normal, each one long; nothing but zeros where the normal is zero.
+/// Two axes of the plane with this normal, and the normal, each one long; nothing but zeros where
+/// the normal is zero.
 fn axes(normal: Vector) -> [Vector; 3] {
     let unit = |vector: Vector| {
         let size_sq = length_sq(vector);

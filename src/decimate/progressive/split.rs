@@ -1,33 +1,33 @@
 //! Which pieces a vertex is split into (section 4.6), when no valid collapse is left.
 
-use super::classify::{Class, Geometry};
+use super::classify::{Geometry, VertexClass};
 use super::ring::Ring;
 
 /// The triangles at a vertex in pieces that lie one behind the other. Reused from vertex to vertex.
 #[derive(Clone, Debug, Default)]
-pub struct Pieces {
+pub struct StarPieces {
     /// Slots of all triangles of the star.
     slots: Vec<u32>,
     /// Where each piece starts; the first at 0.
     starts: Vec<usize>,
 }
 
-impl Pieces {
-    /// Cuts the star: a non-manifold vertex into its fans, another one along its feature edges, and where those do not cut it,
-    /// in half.
-    pub fn cut(&mut self, ring: &Ring, geometry: &Geometry, class: Class) {
+impl StarPieces {
+    /// Cuts the star: a non-manifold vertex into its fans, another one along its feature edges, and
+    /// where those do not cut it, in half.
+    pub fn cut(&mut self, ring: &Ring, geometry: &Geometry, class: VertexClass) {
         if !self.cut_at_features(ring, geometry, class) && ring.len() >= 2 {
             self.starts.push(ring.len() / 2);
         }
     }
 
     /// Cuts the star into fans or along its feature edges; false where it stays in one piece.
-    pub fn cut_at_features(&mut self, ring: &Ring, geometry: &Geometry, class: Class) -> bool {
+    pub fn cut_at_features(&mut self, ring: &Ring, geometry: &Geometry, class: VertexClass) -> bool {
         self.slots.clear();
         self.starts.clear();
         self.slots.extend_from_slice(&ring.slots);
         match (class, &geometry.features[..]) {
-            (Class::NonManifold, _) => {
+            (VertexClass::NonManifold, _) => {
                 self.starts.extend(ring.fan_starts.iter().map(|&start| start as usize));
             }
             (_, &[first, _, ..]) if ring.is_cycle() => {

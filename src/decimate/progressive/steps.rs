@@ -1,31 +1,34 @@
-//! Steps: what changes the mesh, and all that has to be told of it. Each is one step of the history.
+//! Steps: each changes the mesh and is recorded as one step of the history.
 
-use super::classify::Class;
+use super::classify::VertexClass;
 use super::collapse::{Collapse, Contact};
-use super::decimation::Decimation;
 use super::error::vanishes;
 use super::events::{Event, EventKind};
 use super::proof::AboveLimit;
 use super::ring::Ring;
-use super::vanished::{Moves, Piece, beside, of_star as corners_of_star};
-use super::view::View;
+use super::state::State;
+use super::vanished::{Piece, PieceMoves, beside, of_star as corners_of_star};
+use super::view::Surroundings;
+use super::wedge_targets::wedge_targets;
 
 /// What a collapse leaves behind.
 struct Departure {
     /// Where pieces go that have vanished before, and this star if nothing is beside it.
-    moves: Moves,
+    moves: PieceMoves,
     /// If the star vanishes: a triangle beside it that stands for it now.
     host: Option<u32>,
-    /// Bound on the distance between the input's points that the star stands for and what stands for them then.
+    /// Bound on the distance between the input's points that the star stands for and what stands
+    /// for them then.
     bound: f64,
 }
 
-impl Decimation {
-    /// Takes the vertex at hand along an edge, unless the error would be too large; whether it did.
+impl State {
+    /// Collapses the vertex at hand along an edge unless the error would be too large; returns
+    /// whether it did.
     pub(super) fn collapse(&mut self, Collapse { into, contact, distance }: Collapse) -> bool {
         let Departure { moves, host, bound } = self.plan_departure(into, distance);
-        let View { ring, class, .. } = &self.view;
-        let keeps_topology = contact == Contact::None && !vanishes(ring) && *class != Class::CrackTip;
+        let Surroundings { ring, class, .. } = &self.view;
+        let keeps_topology = contact == Contact::None && !vanishes(ring) && *class != VertexClass::CrackTip;
         let max_error = self.settings.max_error;
         let estimate = bound.max(moves.bound) + self.settings.rounding;
         let plan = match &mut self.proof {
@@ -47,7 +50,7 @@ impl Decimation {
         self.deviations.set_star(&ring, if is_proven { bound.min(error) } else { bound });
         host.iter().for_each(|&host| self.deviations.raise(host, bound));
         self.vanished.carry_out(&ring, moves);
-        self.vanished.follow(&self.complex, &ring, host);
+        self.vanished.follow(&self.surface, &ring, host);
         if is_proven {
             self.n_proven = self.journal.n_steps() + 1;
         }
@@ -59,32 +62,34 @@ impl Decimation {
         true
     }
 
-    /// What the collapse of the vertex at hand into neighbour `into` leaves, of which the star is this far at most.
+    /// What the collapse of the vertex at hand into neighbour `into` leaves, of which the star is
+    /// this far at most.
     fn plan_departure(&mut self, into: usize, distance: f64) -> Departure {
-        let Self { complex, vanished, deviations, journal, view: View { ring, .. }, .. } = self;
+        let Self { surface, vanished, deviations, journal, view: Surroundings { ring, .. }, .. } = self;
         // As long as the proof lasts, no triangle is farther from the input than it says.
         let proven = if self.proof.is_some() { journal.recorder.error() } else { f64::INFINITY };
         let of_star = deviations.of_star(ring).min(proven);
         if !vanishes(ring) {
-            let moves = vanished.moves_to_fan(complex, ring, into);
+            let moves = vanished.moves_to_fan(surface, ring, into);
             return Departure { moves, host: None, bound: of_star + distance };
         }
-        match beside(complex, ring) {
+        match beside(surface, ring) {
             Some((host, distance)) => {
-                let moves = vanished.moves_beside(complex, ring, host);
+                let moves = vanished.moves_beside(surface, ring, host);
                 Departure { moves, host: Some(host), bound: of_star + distance }
             }
             None => {
-                let own = Piece { corners: corners_of_star(complex, ring), bound: of_star };
-                Departure { moves: vanished.moves_away(complex, ring, own), host: None, bound: of_star }
+                let own = Piece { corners: corners_of_star(surface, ring), bound: of_star };
+                Departure { moves: vanished.moves_away(surface, ring, own), host: None, bound: of_star }
             }
         }
     }
 
-    /// If the vertex at hand is in the last triangle of a part: a bound on how far that is from the rest of the mesh.
+    /// If the vertex at hand is in the last triangle of a part: a bound on how far that is from the
+    /// rest of the mesh.
     pub(super) fn distance_of_last(&mut self) -> Option<f64> {
-        let View { ring, .. } = &self.view;
-        let is_last = vanishes(ring) && beside(&self.complex, ring).is_none();
+        let Surroundings { ring, .. } = &self.view;
+        let is_last = vanishes(ring) && beside(&self.surface, ring).is_none();
         is_last.then(|| self.plan_departure(0, 0.0).moves.bound)
     }
 
@@ -111,19 +116,20 @@ impl Decimation {
                 self.pairs.iter().for_each(|&[wedge, goes_to]| self.journal.collapse(wedge, goes_to));
             }
         }
-        self.complex.collapse(from, target, &ring.slots);
+        self.surface.collapse(from, target, &ring.slots);
         for &slot in &ring.slots {
-            if self.complex.corners(slot)[0] != u32::MAX {
+            if self.surface.is_alive(slot) {
                 self.journal.recorder.birth(slot);
             }
         }
     }
 
-    /// Where triangles with the same wedge at the centre are to go to different wedges, all but the first get a copy of it.
+    /// If triangles with the same wedge at the centre go to different wedges, all but the first get
+    /// a copy of it.
     fn part_wedges(&mut self, ring: &Ring, into: usize, error: f64) {
         let Some(wedges) = &self.wedges else { return };
         let mut pairs = std::mem::take(&mut self.pairs);
-        wedges.targets(&self.complex, ring, into, &mut pairs);
+        wedge_targets(wedges, &self.surface, ring, into, &mut pairs);
         for i in 1..pairs.len() {
             let [wedge, goes_to] = pairs[i];
             let first = pairs[..i].iter().find(|pair| pair[0] == wedge);
@@ -144,7 +150,7 @@ impl Decimation {
             Contact::ClosesHole => self.tell(EventKind::HoleClosed),
             Contact::Attaches => self.tell(EventKind::Attached),
         }
-        if vanishes(ring) && ring.vertices.iter().all(|&r| self.complex.star(r).is_empty()) {
+        if vanishes(ring) && ring.vertices.iter().all(|&r| self.surface.star(r).is_empty()) {
             self.tell(EventKind::ComponentVanished);
         }
     }
@@ -153,7 +159,7 @@ impl Decimation {
         self.events.add(Event {
             kind,
             step: self.journal.n_steps(),
-            triangles: self.complex.n_triangles(),
+            triangles: self.surface.n_triangles(),
             error: self.journal.recorder.error(),
         });
     }
@@ -162,7 +168,7 @@ impl Decimation {
     fn vertices(&self, slot: u32) -> [u32; 3] {
         match &self.wedges {
             Some(wedges) => wedges.corners(slot),
-            None => self.complex.corners(slot),
+            None => self.surface.corners(slot),
         }
     }
 
@@ -175,7 +181,7 @@ impl Decimation {
         if self.touches_lock() {
             return;
         }
-        let View { ring, geometry, class } = &self.view;
+        let Surroundings { ring, geometry, class } = &self.view;
         self.pieces.cut(ring, geometry, *class);
         self.split_into_pieces(v);
         let slots = std::mem::take(&mut self.view.ring.slots);
@@ -185,24 +191,25 @@ impl Decimation {
     /// Whether a triangle of the vertex at hand has a locked corner: such a vertex is not split, or
     /// the surface would come off its border.
     fn touches_lock(&self) -> bool {
-        let Self { complex, view: View { ring, .. }, .. } = self;
-        let is_locked = |&slot: &u32| complex.corners(slot).into_iter().any(|v| complex.is_locked(v));
-        complex.has_locked() && ring.slots.iter().any(is_locked)
+        let Self { surface, view: Surroundings { ring, .. }, .. } = self;
+        let is_locked = |&slot: &u32| surface.corners(slot).into_iter().any(|v| surface.is_locked(v));
+        surface.has_locked() && ring.slots.iter().any(is_locked)
     }
 
-    /// Looks at all corners of these triangles, whose names have changed.
+    /// Evaluates all corners of these triangles, some of which have changed.
     fn evaluate_corners(&mut self, slots: &[u32]) {
-        let mut corners: Vec<u32> = slots.iter().flat_map(|&slot| self.complex.corners(slot)).collect();
+        let mut corners: Vec<u32> = slots.iter().flat_map(|&slot| self.surface.corners(slot)).collect();
         corners.sort_unstable();
         corners.dedup();
         corners.into_iter().for_each(|v| self.evaluate_changed(v));
     }
 
-    /// Splits every vertex along its feature edges, and non-manifold ones into their fans (section 4.9).
+    /// Splits every vertex along its feature edges, and non-manifold ones into their fans (section
+    /// 4.9).
     pub(super) fn pre_split(&mut self) {
-        for v in (0..).take(self.complex.n_points()) {
+        for v in (0..).take(self.surface.n_vertices()) {
             self.look_at(v);
-            let View { ring, geometry, class } = &self.view;
+            let Surroundings { ring, geometry, class } = &self.view;
             if !self.touches_lock() && self.pieces.cut_at_features(ring, geometry, *class) {
                 self.split_into_pieces(v);
             }
@@ -227,7 +234,7 @@ impl Decimation {
                 self.record_split(v, slots, error);
                 slots.iter().for_each(|&slot| self.journal.recorder.birth(slot));
             }
-            self.complex.rename(v, point, slots);
+            self.surface.rename(v, point, slots);
             self.tell(EventKind::Split);
         }
         self.pieces = pieces;
@@ -245,10 +252,10 @@ impl Decimation {
     /// Copies the wedges that the triangles in `slots` share with others at `v`.
     fn split_wedges(&mut self, v: u32, slots: &[u32], error: f64) {
         let wedge_of =
-            |this: &Self, slot| this.wedges.as_ref().map_or(v, |wedges| wedges.at(&this.complex, slot, v));
+            |this: &Self, slot| this.wedges.as_ref().map_or(v, |wedges| wedges.at(&this.surface, slot, v));
         let mut inside: Vec<(u32, u32)> = slots.iter().map(|&slot| (wedge_of(self, slot), slot)).collect();
         inside.sort_unstable();
-        let mut outside: Vec<u32> = self.complex.star(v).to_vec();
+        let mut outside: Vec<u32> = self.surface.star(v).to_vec();
         outside.retain(|slot| !slots.contains(slot));
         let mut outside: Vec<u32> = outside.into_iter().map(|slot| wedge_of(self, slot)).collect();
         outside.sort_unstable();
@@ -272,25 +279,26 @@ impl Decimation {
         copy
     }
 
-    /// Merges the two neighbours at one place between which the crack ends that the vertex at hand is the tip of; false where
-    /// they have a triangle in common, or triangles that would be the same afterwards.
+    /// Merges the two neighbours at one place between which the crack ends that the vertex at hand
+    /// is the tip of; false where they have a triangle in common, or triangles that would be the
+    /// same afterwards.
     pub(super) fn close_crack(&mut self) -> bool {
         let ring = std::mem::take(&mut self.view.ring);
         let (into, from) = (ring.vertices[0], ring.vertices[ring.vertices.len() - 1]);
         let is_free = |&slot: &u32| {
-            let corners = self.complex.corners(slot);
+            let corners = self.surface.corners(slot);
             let renamed = corners.map(|v| if v == from { into } else { v });
-            !corners.contains(&into) && !self.complex.has_triangle(renamed)
+            !corners.contains(&into) && !self.surface.has_oriented_triangle(renamed)
         };
-        let can_merge = self.complex.star(from).iter().all(is_free);
+        let can_merge = self.surface.star(from).iter().all(is_free);
         if can_merge {
             self.merge(from, into);
             self.evaluate(from);
-            let slots = self.complex.star(into).to_vec();
+            let slots = self.surface.star(into).to_vec();
             self.evaluate_corners(&slots);
-            // It is at hand, and not in the queue.
-            self.queue.delete(ring.center);
-            self.stuck.delete(ring.center);
+            // The centre is at hand and must not be in a queue.
+            self.schedule.queue.delete(ring.center);
+            self.schedule.stuck.delete(ring.center);
         }
         self.view.ring = ring;
         can_merge
@@ -301,7 +309,7 @@ impl Decimation {
         self.counts.merges += 1;
         self.proof = None;
         let error = self.journal.recorder.error();
-        let slots = self.complex.star(from).to_vec();
+        let slots = self.surface.star(from).to_vec();
         self.accumulated.merge(from, into);
         match &self.wedges {
             None => {
@@ -310,12 +318,12 @@ impl Decimation {
             Some(wedges) => {
                 let at = |slots: &[u32], point| {
                     let mut found: Vec<u32> =
-                        slots.iter().map(|&slot| wedges.at(&self.complex, slot, point)).collect();
+                        slots.iter().map(|&slot| wedges.at(&self.surface, slot, point)).collect();
                     found.sort_unstable();
                     found.dedup();
                     found
                 };
-                let (leaving, staying) = (at(&slots, from), at(self.complex.star(into), into));
+                let (leaving, staying) = (at(&slots, from), at(self.surface.star(into), into));
                 let same = |wedge: u32| {
                     staying
                         .iter()
@@ -333,7 +341,7 @@ impl Decimation {
                 }
             }
         }
-        self.complex.rename(from, into, &slots);
+        self.surface.rename(from, into, &slots);
         self.tell(EventKind::Merged);
     }
 

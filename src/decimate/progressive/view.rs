@@ -1,22 +1,21 @@
 //! A vertex with its surroundings.
 
-use super::classify::{Class, Geometry, classify};
-use super::complex::Complex;
+use super::classify::{Geometry, VertexClass, classify};
 use super::error::local_error;
 use super::ring::Ring;
-use super::wedges::Wedges;
+use crate::mesh::{Surface, Wedges};
 
 /// What lies around a vertex. Reused from vertex to vertex.
 #[derive(Clone, Debug, Default)]
-pub(super) struct View {
+pub(super) struct Surroundings {
     pub(super) ring: Ring,
     pub(super) geometry: Geometry,
-    pub(super) class: Class,
+    pub(super) class: VertexClass,
 }
 
-/// Where a vertex is to wait, and the error that decides when its turn comes. Accumulated errors are to be added.
+/// Which queue a vertex belongs to, and its error there without what has accumulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
+pub(super) enum QueuePlace {
     /// Nowhere: it is in no triangle, or locked.
     Nowhere,
     /// Among those that may be collapsed.
@@ -25,18 +24,18 @@ pub(super) enum Place {
     Stuck(f64),
 }
 
-impl View {
+impl Surroundings {
     /// Looks at `v`. O(valence log valence).
     pub(super) fn gather(
         &mut self,
-        complex: &Complex,
+        surface: &Surface,
         wedges: Option<&Wedges>,
         v: u32,
         cos_feature_angle: f64,
     ) {
-        self.ring.gather(complex, v);
-        self.geometry.gather(complex, wedges, &self.ring, cos_feature_angle);
-        self.class = classify(complex, &self.ring, &self.geometry);
+        self.ring.gather(surface, v);
+        self.geometry.gather(surface, wedges, &self.ring, cos_feature_angle);
+        self.class = classify(surface, &self.ring, &self.geometry);
     }
 
     /// Local error of the vertex.
@@ -44,17 +43,18 @@ impl View {
         local_error(self.class, &self.ring, &self.geometry)
     }
 
-    /// Effective edge length of the star (equation 4): what is lost at most when pieces of it vanish.
+    /// Effective edge length of the star (equation 4): what is lost at most when pieces of it
+    /// vanish.
     pub(super) fn size(&self) -> f64 {
         self.geometry.area.sqrt()
     }
 
-    /// Where the vertex is to wait.
-    pub(super) fn place(&self) -> Place {
+    /// Which queue the vertex belongs to.
+    pub(super) fn place(&self) -> QueuePlace {
         match self.class {
-            Class::Empty | Class::Locked => Place::Nowhere,
-            class if class.may_collapse() => Place::Queued(self.error()),
-            _ => Place::Stuck(self.error() + self.size()),
+            VertexClass::Empty | VertexClass::Locked => QueuePlace::Nowhere,
+            class if class.may_collapse() => QueuePlace::Queued(self.error()),
+            _ => QueuePlace::Stuck(self.error() + self.size()),
         }
     }
 }
