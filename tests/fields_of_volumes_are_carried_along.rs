@@ -1,4 +1,5 @@
-//! Promise: whatever the fields of a volume hold, it builds, and the values of its levels come from those of the input.
+//! Promise: whatever the fields of a volume hold, it builds, and the values of its levels come from
+//! those of the input.
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -99,7 +100,8 @@ fn whole_numbers_are_those_of_the_input() {
         let is_of_input = |pair: &[f64]| pair[0] == -pair[1] && (0.0..343.0).contains(&pair[0]);
         assert!(values.chunks(2).all(is_of_input));
     }
-    // Numbers of vertices cannot be right where vertices are gone; where they differ is all that can be said.
+    // Numbers of vertices cannot be right where vertices are gone; where they differ is all that
+    // can be said.
     let deviation = |name: &str| {
         let named = build.history().deviations.iter().find(|deviation| deviation.name == name);
         [0, 1].map(|step| named.unwrap().values[step * build.fusions().n_fusions])

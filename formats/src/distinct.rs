@@ -26,8 +26,9 @@ impl DistinctNames {
         self.taken.contains(name)
     }
 
-    /// `name` if it is free, or else the first of `name_2`, `name_3` and so on that is. O(1) amortised: each number is tried once,
-    /// and a name that stands in the way of one number stands in the way of no other.
+    /// `name` if it is free, or else the first of `name_2`, `name_3` and so on that is. O(1)
+    /// amortised: each number is tried once, and a name that stands in the way of one number stands
+    /// in the way of no other.
     pub(crate) fn take(&mut self, name: String) -> String {
         if self.taken.insert(name.clone()) {
             return name;

@@ -12,8 +12,8 @@ use crate::{Attribute, FileReport, Kind};
 ///
 /// # Errors
 ///
-/// [`MeshError::NonFinite`] or [`MeshError::CoordinateTooLarge`] with the first vertex at fault that
-/// a corner uses.
+/// [`MeshError::NonFinite`] or [`MeshError::CoordinateTooLarge`] with the first vertex at fault
+/// that a corner uses.
 pub(crate) fn drop_bad_points<T: Copy + Into<f64>>(
     points: &mut Vec<[T; 3]>,
     attributes: &mut [Attribute],

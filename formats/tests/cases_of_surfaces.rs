@@ -1,8 +1,8 @@
 //! Promise: small files that other programs write come out as their formats define them, whatever
 //! format they are written to.
 //!
-//! The files are those of `cases/surfaces` in the folder of real meshes; what was written is read back by
-//! the few lines at the end of this file, which share nothing with the readers.
+//! The files are those of `cases/surfaces` in the folder of real meshes; what was written is read
+//! back by the few lines at the end of this file, which share nothing with the readers.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed step is a failed test")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]

@@ -1,7 +1,8 @@
-//! Promise: everything that a file declares beside vertices and faces is in the mesh or in the notes, by
-//! its name; and what a writer cannot write is in its notes.
+//! Promise: everything that a file declares beside vertices and faces is in the mesh or in the
+//! notes, by its name; and what a writer cannot write is in its notes.
 //!
-//! What a file declares is found by the few lines of `declared`, which share nothing with the readers.
+//! What a file declares is found by the few lines of `declared`, which share nothing with the
+//! readers.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failed step is a failed test")]
 #![allow(clippy::cast_possible_truncation, reason = "small numbers")]

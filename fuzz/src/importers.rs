@@ -32,8 +32,8 @@ pub(crate) fn read_mesh(bytes: &[u8], format: MeshFormat) {
     }
 }
 
-/// Reads bytes as compressed values at the points of a VTU file: the compressor, the length that the
-/// block claims, the block.
+/// Reads bytes as compressed values at the points of a VTU file: the compressor, the length that
+/// the block claims, the block.
 pub(crate) fn read_compressed(bytes: &[u8]) {
     let mut script = Script::new(bytes);
     let compressor = ["LZ4", "LZMA", "ZLib"][usize::from(script.u8()) % 3];

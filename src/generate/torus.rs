@@ -13,8 +13,8 @@ const MINOR_RADIUS: f64 = 0.4;
 
 /// A torus about the z axis, its tube of radius 0.4 around the unit circle.
 ///
-/// `segments` sections around the axis, each of `sides` vertices: `2 * segments * sides` triangles. Both counts in
-/// `3..=MAX_COUNT`.
+/// `segments` sections around the axis, each of `sides` vertices: `2 * segments * sides` triangles.
+/// Both counts in `3..=MAX_COUNT`.
 pub fn torus(segments: u32, sides: u32) -> TriangleMesh {
     let [segments, sides] = [segments, sides].map(|count| count.clamp(3, MAX_COUNT));
     let mut positions = Vec::with_capacity(segments as usize * sides as usize);

@@ -6,8 +6,8 @@ use crate::geometry::morton::Grid;
 use crate::history::Levels;
 use rayon::prelude::*;
 
-/// Vertices by the level at which they die, latest first, neighbours on the surface together. Those that no level sees are
-/// left out.
+/// Vertices by the level at which they die, latest first, neighbours on the surface together. Those
+/// that no level sees are left out.
 ///
 /// Memory: 8 bytes per vertex, 24 more while it is made; 4 more where vertices are born.
 pub(super) struct VertexOrder {
@@ -15,7 +15,8 @@ pub(super) struct VertexOrder {
     pub order: Vec<u32>,
     /// Place in the file of each vertex of the history; without a meaning for those left out.
     pub rank: Vec<u32>,
-    /// Vertices that die after each level, a prefix of `order` that holds every vertex of the level.
+    /// Vertices that die after each level, a prefix of `order` that holds every vertex of the
+    /// level.
     pub counts: Vec<u32>,
     /// Level at which the vertex at each place is born; empty where all are born at level 0.
     pub births: Vec<u32>,

@@ -14,7 +14,8 @@ pub(super) struct AttributeSections {
     pub values_bytes: u64,
 }
 
-/// Looks whether a file holds the attributes of a mesh: before a build, at whose end it would be late to be told.
+/// Looks whether a file holds the attributes of a mesh: before a build, at whose end it would be
+/// late to be told.
 ///
 /// # Errors
 ///

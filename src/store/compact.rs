@@ -1,8 +1,10 @@
-//! The compact form of slots: each simplex once, stamps and indices as narrow as their ranges allow.
+//! The compact form of slots: each simplex once, stamps and indices as narrow as their ranges
+//! allow.
 //!
-//! A renderer draws from slots as they lie, so the plain form holds every simplex once in its node's birth list and once
-//! in its death list, and in windowed files in every window that sees it. On a disk or a wire that is waste: here a slot
-//! either brings a new simplex or names an earlier one. Opening such a file lays the slots out again in memory, once.
+//! A renderer draws from slots as they lie, so the plain form holds every simplex once in its
+//! node's birth list and once in its death list, and in windowed files in every window that sees
+//! it. On a disk or a wire that is waste: here a slot either brings a new simplex or names an
+//! earlier one. Opening such a file lays the slots out again in memory, once.
 
 use super::pieces::Pieces;
 use super::{CompactFault, OpenError};
@@ -23,7 +25,8 @@ pub(super) struct CompactSlots {
 }
 
 impl CompactSlots {
-    /// `slots` holds the id of a piece each. Memory: 4 bytes per simplex of the history and per slot.
+    /// `slots` holds the id of a piece each. Memory: 4 bytes per simplex of the history and per
+    /// slot.
     pub(super) fn new<const CORNERS: usize>(slots: &[u32], pieces: &Pieces<'_, CORNERS>) -> Self {
         let mut places = vec![NO_INDEX; pieces.n_simplices()];
         let (mut distinct, mut repeat_sources) = (Vec::new(), Vec::new());
@@ -105,8 +108,9 @@ pub(super) struct Expanded {
 }
 
 impl CompactSections<'_> {
-    /// Lays the slots out in the plain form. A simplex that is named and not there has zeros for corners; a file in which
-    /// this happens does not pass [`check`](Self::check). Cost: some 3 ns per slot.
+    /// Lays the slots out in the plain form. A simplex that is named and not there has zeros for
+    /// corners; a file in which this happens does not pass [`check`](Self::check). Cost: some 3 ns
+    /// per slot.
     ///
     /// # Errors
     ///
@@ -135,7 +139,8 @@ impl CompactSections<'_> {
         Ok(Expanded { simplices, stamps })
     }
 
-    /// Checks that bits and sources are as many as there are repeats, and that every source is the simplex of an earlier slot.
+    /// Checks that bits and sources are as many as there are repeats, and that every source is the
+    /// simplex of an earlier slot.
     pub(super) fn check(self) -> Result<(), CompactFault> {
         let n_set: u64 = self.repeat_bits.iter().map(|word| u64::from(word.count_ones())).sum();
         let n_sources = self.repeat_sources.len() as u64;

@@ -15,7 +15,8 @@ pub enum WriteError {
     /// The system refused.
     #[error("cannot {action} {}", path.display())]
     Io {
-        /// What was tried: `create a file in`, `write`, `sync`, `check`, `rename a file to` or `replace`.
+        /// What was tried: `create a file in`, `write`, `sync`, `check`, `rename a file to` or
+        /// `replace`.
         action: &'static str,
         /// The file concerned.
         path: PathBuf,
@@ -197,7 +198,8 @@ pub enum VerifyError {
         /// Which one.
         deviation: usize,
     },
-    /// A count of simplices or vertices rises from one level to the next, or is not the one the rest of the file gives.
+    /// A count of simplices or vertices rises from one level to the next, or is not the one the
+    /// rest of the file gives.
     #[error("level {level} has {found} {what} where {expected} are possible")]
     Count {
         /// Which level.

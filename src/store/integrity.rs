@@ -4,7 +4,8 @@ use super::VerifyError;
 use nephrite_formats::neph::{self, Directory, SectionKind};
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// Compares every chunk of the body, and the checksums themselves, with what header and checksum section say.
+/// Compares every chunk of the body, and the checksums themselves, with what header and checksum
+/// section say.
 ///
 /// Memory: one chunk and 8 bytes per chunk, both no longer than the file.
 pub(super) fn check_integrity(

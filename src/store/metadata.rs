@@ -68,8 +68,8 @@ impl fmt::Display for Bound {
 
 /// How a file was made.
 ///
-/// A reader gets it from [`Lod::metadata`](crate::Lod::metadata). It is written by a build, which states what it did and
-/// nothing else: no writer takes metadata from its caller.
+/// A reader gets it from [`Lod::metadata`](crate::Lod::metadata). It is written by a build, which
+/// states what it did and nothing else: no writer takes metadata from its caller.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 #[non_exhaustive]
@@ -90,8 +90,8 @@ pub struct Metadata {
     pub options: Value,
     /// What was repaired before the build.
     pub repairs: Value,
-    /// Levels with at least this many simplices carry a certified error, those below it an estimate. `None` if `bound` holds
-    /// for all levels.
+    /// Levels with at least this many simplices carry a certified error, those below it an
+    /// estimate. `None` if `bound` holds for all levels.
     pub certified_simplices: Option<u64>,
     /// Changes of topology: how many of each kind, and the first ones with their errors.
     pub topology: Value,

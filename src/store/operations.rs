@@ -9,8 +9,8 @@ use rayon::prelude::*;
 type CornerBits = [[u32; 3]; 3];
 
 impl Opened {
-    /// Reads the whole stream and plays it to its end: then it has the triangles of level 0, by the positions of their corners and
-    /// their orientation. O(n log n) in the triangles of level 0.
+    /// Reads the whole stream and plays it to its end: then it has the triangles of level 0, by the
+    /// positions of their corners and their orientation. O(n log n) in the triangles of level 0.
     pub(super) fn check_operations(&self) -> Result<(), VerifyError> {
         if self.operations().is_empty() {
             return Ok(());

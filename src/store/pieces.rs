@@ -1,9 +1,10 @@
 //! What a file stores: whole lifetimes, or lifetimes cut at the borders of windows.
 //!
-//! Triangles that are born together are seldom neighbours, so that levels drawn as prefixes of the interval tree transform
-//! most vertices twice. Most triangles of a level live through the levels around it, however. If lifetimes are cut at the
-//! borders of windows of `2^k` levels, each window is a node of the tree, and what lives throughout the window is one
-//! group of that node, in which neighbours are together and the order is free. A simplex is then stored in every window that
+//! Triangles that are born together are seldom neighbours, so that levels drawn as prefixes of the
+//! interval tree transform most vertices twice. Most triangles of a level live through the levels
+//! around it, however. If lifetimes are cut at the borders of windows of `2^k` levels, each window
+//! is a node of the tree, and what lives throughout the window is one group of that node, in which
+//! neighbours are together and the order is free. A simplex is then stored in every window that
 //! sees it: smaller windows buy fewer misses of the vertex cache with a larger file.
 
 use super::WriteError;
@@ -20,7 +21,8 @@ pub(super) struct Pieces<'a, const CORNERS: usize> {
 }
 
 impl<'a, const CORNERS: usize> Pieces<'a, CORNERS> {
-    /// Cuts lifetimes at the multiples of `window_levels`, which is rounded up to a power of two; not at all for `None`.
+    /// Cuts lifetimes at the multiples of `window_levels`, which is rounded up to a power of two;
+    /// not at all for `None`.
     ///
     /// Memory: 12 bytes per piece if they are cut.
     pub(super) fn new(

@@ -1,4 +1,5 @@
-//! Files that are in order and hold meshes that are not: topology and geometry of every unpleasant kind, as OBJ.
+//! Files that are in order and hold meshes that are not: topology and geometry of every unpleasant
+//! kind, as OBJ.
 
 use super::{Case, Cases};
 use std::fmt::Write;

@@ -21,7 +21,8 @@ pub(crate) fn grid(n: u32, size: [f32; 2], z: impl Fn(f32, f32) -> f32) -> Trian
     mesh(positions, triangles)
 }
 
-/// A sphere of radius 1 about the origin, an octahedron whose triangles are quartered `levels` times.
+/// A sphere of radius 1 about the origin, an octahedron whose triangles are quartered `levels`
+/// times.
 pub(crate) fn sphere(levels: u32) -> TriangleMesh {
     let mut positions: Vec<[f32; 3]> = vec![
         [1.0, 0.0, 0.0],

@@ -1,28 +1,28 @@
-//! What a vertex is to the boundary, and which boundary vertices may become one.
+//! What a vertex is to the boundary, and which boundary vertices may be fused.
 //!
-//! Corners stay where they are, creases shrink along themselves only: the vertices of a fusion that lie on creases must be
-//! neighbours along one crease, and the fusion point is one of them. The neighbours along a crease
-//! are kept as the vertices they were at first; which vertices those have been merged into is looked
-//! up when it is asked for.
+//! Corners stay, and creases shrink along themselves only: the vertices of a fusion that lie on
+//! creases must be neighbours along one crease, and the fusion point is one of them. The neighbours
+//! along a crease are stored as vertices of the input; the vertices into which they have been
+//! merged are looked up when needed.
 
 use super::links::irregular;
 use crate::flat::{DisjointSets, NO_INDEX};
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Tetrahedra;
 
-/// What a vertex is to the boundary, from what moves most freely to what does not move.
+/// What a vertex is to the boundary, from free to fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
-    /// Not on it.
+    /// Not on the boundary.
     Interior,
-    /// On it, without a feature edge.
+    /// On the boundary, without a feature edge.
     Smooth,
-    /// Between two feature edges that go on in one direction.
+    /// Between two feature edges that continue each other.
     Crease,
     /// At any other feature edges.
     Corner,
-    /// Where the tetrahedra do not lie as around a point of space: never part of a fusion that changes the boundary, and it stays where
-    /// it is.
+    /// The tetrahedra around it do not fill a ball or half ball. The vertex stays, and is never
+    /// part of a fusion that changes the boundary.
     Locked,
 }
 
@@ -37,8 +37,8 @@ pub(super) struct Creases {
 }
 
 impl Creases {
-    /// Classifies the vertices of a mesh. Edges at which the normals of the boundary turn by more than an angle, given by its
-    /// cosine, are features. O(n).
+    /// Classifies the vertices of a mesh. Edges at which the normals of the boundary turn by more
+    /// than an angle, given by its cosine, are features. O(n).
     pub(super) fn new(mesh: &Tetrahedra, cos_feature_angle: f64) -> Self {
         let n_vertices = mesh.n_vertices();
         let mut rims: Vec<Vec<[u32; 2]>> = vec![Vec::new(); n_vertices];
@@ -93,7 +93,7 @@ impl Creases {
         self.kinds[v as usize]
     }
 
-    /// Where boundary vertices that become one may go, or `None` where they may not.
+    /// Where the fusion point of boundary vertices may be; `None` if they must not be fused.
     pub(super) fn anchor(&mut self, members: &[u32]) -> Option<Anchor> {
         let mut sharp = [NO_INDEX; 4];
         let mut n_sharp = 0;
@@ -123,7 +123,8 @@ impl Creases {
         Some(Anchor { vertices, n_vertices: source.len(), is_free: n_sharp == 0 })
     }
 
-    /// Whether crease vertices, and a corner perhaps, hang together along a crease that goes on at its other ends.
+    /// Whether crease vertices, and perhaps a corner, are connected along a crease that continues
+    /// at its other ends.
     fn is_chain(&mut self, sharp: &[u32]) -> bool {
         let mut n_links = 0;
         let mut ends = [NO_INDEX; 8];
@@ -158,7 +159,7 @@ impl Creases {
         reached.count_ones() as usize == sharp.len() && n_links == 2 * (sharp.len() - 1)
     }
 
-    /// A new vertex takes the place of others.
+    /// Adds a vertex that replaces others.
     pub(super) fn add_vertex(&mut self, replaced: &[u32]) {
         let kind = replaced.iter().map(|&v| self.kind(v)).max().unwrap_or(Kind::Interior);
         let mut along = [NO_INDEX; 2];
@@ -179,7 +180,7 @@ impl Creases {
         self.merged.push_over(replaced);
     }
 
-    /// Neighbours along the crease of a crease vertex, none of any other.
+    /// Neighbours of a crease vertex along its crease; empty for any other vertex.
     fn crease_neighbours(&self, v: u32) -> impl Iterator<Item = u32> + use<> {
         let is_crease = self.kinds[v as usize] == Kind::Crease;
         self.along[v as usize].into_iter().filter(move |_| is_crease)
@@ -191,29 +192,31 @@ impl Creases {
     }
 }
 
-/// Where boundary vertices that become one may go.
+/// Where boundary vertices may be fused.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anchor {
     vertices: [u32; 4],
     n_vertices: usize,
-    /// Whether other places will do as well.
+    /// Whether other places are allowed too.
     pub is_free: bool,
 }
 
 impl Anchor {
-    /// The vertices at whose places the new one may be.
+    /// The vertices at whose positions the fusion point may be.
     pub(super) fn vertices(&self) -> &[u32] {
         &self.vertices[..self.n_vertices]
     }
 }
 
-/// The vertices around a boundary vertex in their order, or `None` where they are not one closed ring. O(n log n).
+/// The vertices around a boundary vertex in order; `None` if they are not one closed ring. O(n log
+/// n).
 fn ring(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
     let mut edges = rim.to_vec();
     let mut ends: Vec<u32> = rim.iter().map(|edge| edge[1]).collect();
     edges.sort_unstable();
     ends.sort_unstable();
-    // Each vertex once as a start and once as an end: a walk then comes back to where it began, or not at all.
+    // Each vertex once as a start and once as an end: then a walk comes back to its start, or not
+    // at all.
     if edges.iter().zip(&ends).any(|(edge, &end)| edge[0] != end)
         || ends.windows(2).any(|pair| pair[0] == pair[1])
     {
@@ -234,7 +237,7 @@ fn ring(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
     (ring.len() == rim.len()).then_some(ring)
 }
 
-/// Whether two edges that leave a vertex are one line that turns by less than the angle.
+/// Whether two edges at a vertex form one line that turns by less than the angle.
 fn goes_on(a: Vector, b: Vector, cos_angle: f64) -> bool {
     -dot(a, b) > cos_angle * (length_sq(a) * length_sq(b)).sqrt()
 }

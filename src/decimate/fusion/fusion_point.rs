@@ -1,17 +1,18 @@
-//! The point that a tetrahedron is fused to: where its quadric is least (equation 6 of the paper).
+//! The point to which a tetrahedron is fused: the minimum of its quadric (equation 6 of the paper).
 
 use super::metric::Quadric;
 use crate::geometry::vector::{Vector, dot};
 
-/// Systems whose condition number may exceed this are not solved: their solution would be rounding.
+/// Systems whose condition number may exceed this are not solved, because the solution would be
+/// rounding.
 const MAX_CONDITION: f64 = 1e10;
 
-/// The point of the least value, or `None` where the quadric does not tell it: where the condition number of its system may
-/// exceed `1e10`, not only where its determinant is zero.
+/// The minimum of the quadric; `None` if the condition number of its system may exceed `1e10`, not
+/// only if its determinant is zero.
 ///
-/// For eigenvalues `l1 >= l2 >= l3` of `A`, the trace is at least `l1`, the sum of the principal minors at least `l1 l2`, and
-/// the determinant is their product. So `trace * minors / determinant` is at least the condition number `l1 / l3`, and at
-/// most nine times that.
+/// For eigenvalues `l1 >= l2 >= l3` of `A`, the trace is at least `l1`, the sum of the principal
+/// minors at least `l1 l2`, and the determinant is their product. So `trace * minors / determinant`
+/// is at least the condition number `l1 / l3`, and at most nine times that.
 pub(super) fn least_point(quadric: &Quadric) -> Option<Vector> {
     let [xx, xy, xz, yy, yz, zz] = quadric.a;
     // The adjugate, row by row.

@@ -1,13 +1,15 @@
-//! Where tetrahedra do not lie around a vertex as around a point of space.
+//! Vertices around which the tetrahedra do not fill a ball or half ball.
 //!
-//! Nothing in a file says that tetrahedra fill space once. The test against flipping is a topological one only where they do: where
-//! the *link* of a vertex, the faces opposite to it, is a sphere, or a disk for a vertex of the boundary.
+//! A file need not have tetrahedra that fill space once. The test against flipping is a test of
+//! topology only if they do: if the *link* of a vertex, the faces opposite to it, is a sphere, or a
+//! disk for a vertex of the boundary.
 
 use crate::flat::{DisjointSets, NO_INDEX};
 use crate::mesh::{FACES, Tetrahedra};
 
-/// Vertices whose link is neither a sphere nor a disk, or at a face that does not part two tetrahedra. `rims` has the edges opposite to
-/// each vertex in the faces of the boundary. O(tetrahedra), and O(n log n) at the boundary.
+/// Vertices whose link is neither a sphere nor a disk, or at a face that does not separate two
+/// tetrahedra. `rims` has the edges opposite to each vertex in the faces of the boundary.
+/// O(tetrahedra), and O(n log n) at the boundary.
 pub(super) fn irregular(mesh: &Tetrahedra, rims: &[Vec<[u32; 2]>]) -> Vec<u32> {
     let mut found = mesh.misfits().as_flattened().to_vec();
     let mut link = vec![];
@@ -31,14 +33,15 @@ pub(super) fn irregular(mesh: &Tetrahedra, rims: &[Vec<[u32; 2]>]) -> Vec<u32> {
     found
 }
 
-/// Whether triangles with so many vertices are a sphere, or a disk with so many edges on its rim, by Euler's formula: vertices - edges +
-/// triangles are 2 or 1, and an edge that is not on the rim has two triangles.
+/// Whether `n_triangles` triangles with `n_vertices` vertices are a sphere, or a disk with `n_rim`
+/// edges on its rim, by Euler's formula: vertices - edges + triangles is 2 or 1, and an edge that
+/// is not on the rim has two triangles.
 pub(super) fn is_simple(n_vertices: usize, n_triangles: usize, n_rim: usize) -> bool {
     let euler = if n_rim == 0 { 2 } else { 1 };
     2 * n_vertices == 2 * euler + n_triangles + n_rim
 }
 
-/// Whether one comes from every triangle to every other over edges. O(n log n).
+/// Whether the triangles are connected over edges. O(n log n).
 fn is_one_piece(triangles: &[[u32; 3]]) -> bool {
     let sides = |(at, &[a, b, c]): (u32, &[u32; 3])| {
         [[a, b], [b, c], [a, c]].map(|[p, q]| ([p.min(q), p.max(q)], at))
@@ -80,7 +83,8 @@ mod tests {
         // Four around a vertex: its link is a sphere, those of the others are disks.
         let ball = [[0, 1, 2, 3], [0, 2, 1, 4], [0, 3, 2, 4], [0, 1, 3, 4]];
         assert!(irregular_of(&ball).is_empty());
-        // One more that meets them in a vertex, in an edge, or in three vertices inside and none of the faces.
+        // One more that meets them in a vertex, in an edge, or in three vertices inside and none of
+        // the faces.
         assert_eq!(irregular_of(&[&ball[..], &[[0, 5, 6, 7]]].concat()), [0]);
         assert_eq!(irregular_of(&[&ball[..], &[[0, 1, 6, 7]]].concat()), [0, 1]);
         // On the other side of a face, and on the same one.

@@ -1,18 +1,19 @@
-//! How tetrahedra are fused.
+//! Options of the fusion.
 
 use serde::{Deserialize, Serialize};
 
 /// Constants of the fusion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FusionOptions {
-    /// How much fields count beside the shape: the range of a field is worth this many bounding box diagonals. 0 leaves them out of
-    /// the cost.
+    /// Weight of fields relative to the shape: the range of a field counts as this many bounding
+    /// box diagonals. With 0, fields do not count in the cost.
     pub field_weight: f64,
-    /// The cheapest part of the tetrahedra, from 0 to 1, that are fused whole before edges are. With 1 all that can be are, as the
-    /// paper has it. A fused tetrahedron takes three vertices from one place at once: where fields matter, edges keep them better
+    /// The cheapest part of the tetrahedra, from 0 to 1, that are fused whole before edges are.
+    /// With 1 all tetrahedra that can be are fused whole, as in the paper. Fusing a tetrahedron
+    /// removes three vertices from one place at once; where fields matter, edges keep them better
     /// at the same count.
     pub tetrahedron_share: f64,
-    /// Largest change of the volume, as a part of it.
+    /// Largest change of the volume, as a part of the volume.
     pub volume_loss: f64,
 }
 

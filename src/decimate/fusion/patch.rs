@@ -1,13 +1,16 @@
-//! The boundary under a fusion: what replaces what, how far apart the two are, and that the new lies inside the old.
+//! The boundary under a fusion: which faces replace which, how far apart they are, and whether the
+//! new ones are inside.
 //!
-//! Boundary vertices that become one take their boundary faces with them, a disk `B` with the closed rim `R`. The new faces are the
-//! cone `B'` from the fusion point over `R`. Both are seen along one direction, in which both must be without folds. Then each
-//! vertical line that meets one meets the other, once, so that the largest vertical distance between them bounds
-//! the Hausdorff distance both ways. That distance is linear between the places where an edge of one lies over a vertex or an edge of
-//! the other: it is largest at one of those, and these few are all that is looked at.
+//! Boundary vertices that are fused take their boundary faces with them, a disk `B` with the closed
+//! rim `R`. The new faces are the cone `B'` from the fusion point over `R`. Both are projected
+//! along one direction, in which both must be without folds. Then each vertical line that meets one
+//! meets the other, once, so the largest vertical distance between them bounds the Hausdorff
+//! distance both ways. That distance is linear between the places where an edge of one lies over a
+//! vertex or an edge of the other, so only these few places are examined.
 //!
-//! `B'` may nowhere be above `B`: the new boundary is on the old one or inside it. So the mesh never leaves its first
-//! boundary, and never pierces itself, since what is inside the old mesh near `B` belongs to the tetrahedra of the fusion.
+//! `B'` may nowhere be above `B`: the new boundary is on the old one or inside it. So the mesh
+//! never leaves its first boundary, and never pierces itself, because the inside of the old mesh
+//! near `B` belongs to the tetrahedra of the fusion. `docs/proof.md` has the argument in full.
 
 use super::neighbourhood::Neighbourhood;
 use crate::geometry::vector::{Vector, add_scaled, cross, dot, length, scale, sub};
@@ -16,7 +19,7 @@ use crate::mesh::Tetrahedra;
 /// Least cosine between a face of the boundary and the direction in which a patch is seen.
 const MIN_COSINE: f64 = 0.05;
 
-/// A boundary patch seen along its mean normal, in the plane's coordinates and a height.
+/// A boundary patch projected along its mean normal, in coordinates of the plane and a height.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Patch {
     origin: Vector,
@@ -32,7 +35,7 @@ pub(super) struct Patch {
     edge_ids: Vec<[u32; 2]>,
 }
 
-/// What a fusion point means for a patch.
+/// How a fusion point fits a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     /// Largest vertical distance between the old and the new patch, in mesh units.
@@ -42,8 +45,8 @@ pub(super) struct Fit {
 }
 
 impl Patch {
-    /// Takes over the boundary faces of a neighbourhood around the boundary vertices `members`; false where they are no disk
-    /// that can be seen without folds.
+    /// Takes the boundary faces of a neighbourhood around the boundary vertices `members`. False if
+    /// they are not a disk that can be projected without folds.
     pub(super) fn fill(&mut self, mesh: &Tetrahedra, neighbourhood: &Neighbourhood, members: &[u32]) -> bool {
         let faces = &neighbourhood.faces;
         if !self.find_rim(faces, members) || faces.len() + 2 != 2 * members.len() + self.rim.len() {
@@ -101,7 +104,8 @@ impl Patch {
         self.faces.extend(faces.iter().map(|face| face.map(local)));
         self.edges.clear();
         for &[a, b, c] in faces {
-            // Every edge between a fused vertex and another is met in two faces, in either direction: keep one.
+            // Every edge between a fused vertex and another is in two faces, in either direction;
+            // keep one.
             for [p, q] in [[a, b], [b, c], [c, a]] {
                 let is_inner = [p, q].map(|v| members.contains(&v));
                 if is_inner == [true, false] || (is_inner == [true, true] && p < q) {
@@ -111,8 +115,8 @@ impl Patch {
         }
     }
 
-    /// A point of space below or on the old patch over the same place of the plane as `p`, as high as the new patch can be
-    /// without rising above the old one anywhere.
+    /// A point over the same place of the plane as `p`, as high as possible without the new patch
+    /// rising above the old one anywhere.
     pub(super) fn highest_inside(&self, p: Vector) -> Vector {
         let p = local(p, self.origin, &self.axes);
         let mut height = f64::INFINITY;
@@ -126,7 +130,8 @@ impl Patch {
         add_scaled(add_scaled(add_scaled(self.origin, p[0], u), p[1], v), height, up)
     }
 
-    /// How well the cone from `p` replaces the patch, or `None` where the cone has folds or slopes too steep.
+    /// How well the cone from `p` replaces the patch; `None` if the cone has folds or too steep
+    /// slopes.
     pub(super) fn fit(&self, p: Vector) -> Option<Fit> {
         let p = local(p, self.origin, &self.axes);
         let mut n_turns = 0;
@@ -150,8 +155,9 @@ impl Patch {
         Some(fit)
     }
 
-    /// The places where the distance between the patches can be largest: the height of the old patch above the part of the new
-    /// one that the rim gives, and the weight with which the height of `p` adds to that part.
+    /// The places where the distance between the patches can be largest. For each: the height of
+    /// the old patch above the part of the new height that the rim determines, and the weight of
+    /// the height of `p` in the new height.
     fn for_each_gap(&self, p: Vector, mut gap: impl FnMut(f64, f64)) {
         let n = self.rim_points.len();
         for &inner in &self.inner {
@@ -191,7 +197,7 @@ fn frame(up: Vector) -> [Vector; 3] {
     [u, cross(up, u), up]
 }
 
-/// Barycentric coordinates in the plane with respect to the triangle that a point is most inside of.
+/// Barycentric coordinates in the plane with respect to the triangle that contains a point best.
 fn most_inside(
     point: Vector,
     triangles: impl Iterator<Item = [Vector; 3]>,
@@ -222,7 +228,8 @@ fn turn(a: Vector, b: Vector, c: Vector) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Where two segments cross in the plane, as parts of their lengths; `None` where they do not, or only at an end.
+/// Where two segments cross in the plane, as parts of their lengths; `None` if they do not cross,
+/// or only at an end.
 fn crossing([a, b]: [Vector; 2], [p, q]: [Vector; 2]) -> Option<[f64; 2]> {
     let (from_p, from_q) = (turn(a, b, p), turn(a, b, q));
     if (from_p > 0.0) == (from_q > 0.0) {

@@ -1,8 +1,9 @@
 //! Candidates in the order of their costs.
 //!
-//! A fusion changes the costs of some sixty tetrahedra. Computing and moving them all at once costs more than the fusion. But the
-//! quadric of a fused vertex is the sum of the quadrics it replaces, so costs only rise: an old cost is a lower bound. A
-//! candidate is therefore looked at again only when it comes to the front, and goes back if it has become dearer than the next.
+//! A fusion changes the costs of some sixty tetrahedra. Computing and moving them all at once would
+//! cost more than the fusion. But the quadric of a fused vertex is the sum of the quadrics it
+//! replaces, so costs only rise: an old cost is a lower bound. A candidate is therefore evaluated
+//! again only when it comes to the front, and goes back if it costs more than the next one.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,17 +1,19 @@
 //! The unit of length in which volumes are fused.
 //!
-//! Costs are sixth powers of lengths and kept in `f32`: a mesh in nanometres that is given in metres would have none but zero.
-//! All lengths are therefore multiplied by a power of two that brings the bounding box diagonal to some
-//! [thousand](DIAGONAL_EXPONENT). That changes exponents only: the same mesh at twice the size has the same history.
+//! Costs are sixth powers of lengths and are kept in `f32`: a mesh of nanometres given in metres
+//! would have all costs 0. All lengths are therefore multiplied by a power of two that brings the
+//! bounding box diagonal to some [thousand](DIAGONAL_EXPONENT). That changes exponents only: the
+//! same mesh at twice the size has the same history.
 
-/// The diagonal is at least two to this power, and less than twice that. Costs of the finest parts of a mesh with diagonal `d` are
-/// some `1e-60 d^6`, the largest ones `1e4 d^6`; `f32` has room from `1e-38` to `1e38`.
+/// The diagonal is at least two to this power, and less than twice that. Costs of the finest parts
+/// of a mesh with diagonal `d` are some `1e-60 d^6`, the largest ones `1e4 d^6`; `f32` has room
+/// from `1e-38` to `1e38`.
 const DIAGONAL_EXPONENT: i32 = 10;
 
 /// Meshes with a smaller diagonal keep their unit: fusion points could not be written in it.
 const LEAST_DIAGONAL: f64 = 1e-36;
 
-/// What `f64` adds to exponents.
+/// The number that `f64` adds to exponents.
 const EXPONENT_BIAS: i32 = 1023;
 
 /// A power of two.
