@@ -101,7 +101,11 @@ pub(crate) fn read(source: &Source, format: Option<FileFormat>) -> Result<Read, 
     }
     let found = format_of_contents(&bytes);
     let Some(format) = format.or(found) else {
-        return Err(MeshError::UnknownFormat.in_file(source.to_string()).into());
+        return match source {
+            // The reader knows the names of formats that it does not read.
+            Source::File(path) => Ok(nephrite_formats::read_mesh(path)?.into()),
+            Source::Stdin => Err(MeshError::UnknownFormat.in_file(source.to_string()).into()),
+        };
     };
     match source {
         // From a file the reader also finds what lies beside it: buffers, a second file.
