@@ -1,7 +1,7 @@
 //! What can go wrong in a comparison.
 
-use nephrite::{BuildError, OpenError, QueryError, WriteError};
 use nephrite::measure::MeasureError;
+use nephrite::{BuildError, OpenError, QueryError, WriteError};
 use nephrite_formats::MeshError;
 use std::io;
 

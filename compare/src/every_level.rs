@@ -1,9 +1,8 @@
 //! From a mesh to all its levels, in memory.
 
 use crate::CompareError;
-use nephrite::{BuildOptions, Lod, Provenance, StoreOptions, TriangleMesh, write_to};
+use nephrite::{BuildOptions, Lod, StoreOptions, TriangleMesh};
 use std::io::Cursor;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -46,20 +45,14 @@ pub fn build_lod(
     kept: KeptLevels,
 ) -> Result<Build, CompareError> {
     let start = Instant::now();
-    let build = nephrite::build(mesh, options, &|_| ControlFlow::Continue(()))?;
+    let build = nephrite::build(mesh, options)?;
     let seconds = start.elapsed().as_secs_f64();
     let levels = match kept {
         KeptLevels::Usual => None,
         KeptLevels::All => Some(u32::MAX),
     };
     let mut file = Cursor::new(vec![]);
-    write_to(
-        &mut file,
-        &build.mesh,
-        &build.history,
-        &Provenance::default(),
-        &StoreOptions { levels, ..StoreOptions::default() },
-    )?;
+    build.write_to(&mut file, &StoreOptions { levels, ..StoreOptions::default() })?;
     Ok(Build { lod: Lod::from_bytes(file.get_ref())?, seconds })
 }
 

@@ -1,6 +1,6 @@
 //! Any number of lifetimes without a mesh.
 
-use nephrite::Lifetime;
+use nephrite::internals::Lifetime;
 
 /// About this part of the triangles that ever live in a decimation is there from the start.
 const PART_AT_BIRTH: f64 = 0.37;

@@ -1,8 +1,7 @@
 //! Progressive decimation as in its paper.
 
 use crate::CompareError;
-use nephrite::{Bound, Build, BuildOptions, Method, TriangleMesh, build};
-use std::ops::ControlFlow;
+use nephrite::{Build, BuildOptions, ProgressiveBound, ProgressiveOptions, TriangleMesh, build};
 
 /// Removes this part of the triangles, all of them for 1, under the paper's accumulated error.
 ///
@@ -14,9 +13,6 @@ pub fn decimate_progressively(
     reduction: f64,
     pre_split: bool,
 ) -> Result<Build, CompareError> {
-    let mut options =
-        BuildOptions { method: Method::Progressive, bound: Bound::Accumulated, ..BuildOptions::default() };
-    options.progressive.reduction = Some(reduction);
-    options.progressive.pre_split = pre_split;
-    Ok(build(mesh, &options, &|_| ControlFlow::Continue(()))?)
+    let (bound, reduction) = (ProgressiveBound::Accumulated, Some(reduction));
+    Ok(build(mesh, &BuildOptions::with(ProgressiveOptions { bound, reduction, pre_split }))?)
 }

@@ -2,9 +2,8 @@
 
 use crate::RenderError;
 use glam::Vec3;
-use nephrite::{BuildOptions, History, Lod, Provenance, StoreOptions, TriangleMesh, generate, write_to};
+use nephrite::{BuildOptions, Lod, StoreOptions, StoreReport, TriangleMesh, WriteError, generate};
 use std::io::Cursor;
-use std::ops::ControlFlow;
 
 /// Builds all levels of a mesh in memory.
 ///
@@ -12,15 +11,17 @@ use std::ops::ControlFlow;
 ///
 /// [`RenderError::Build`], [`RenderError::Store`], [`RenderError::Open`].
 pub fn lod_of(mesh: &TriangleMesh) -> Result<Lod, RenderError> {
-    let build = nephrite::build(mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?;
-    stored(&build.mesh, &build.history)
+    let build = nephrite::build(mesh, &BuildOptions::default())?;
+    stored(|file, options| build.write_to(file, options))
 }
 
-/// The levels of a history, through a file in memory.
-pub(crate) fn stored(mesh: &TriangleMesh, history: &History) -> Result<Lod, RenderError> {
+/// The levels in a file that is written to memory.
+pub(crate) fn stored(
+    write: impl FnOnce(&mut Cursor<Vec<u8>>, &StoreOptions) -> Result<StoreReport, WriteError>,
+) -> Result<Lod, RenderError> {
     let mut file = Cursor::new(Vec::new());
-    write_to(&mut file, mesh, history, &Provenance::default(), &StoreOptions::default())?;
-    Lod::from_bytes(&file.into_inner())
+    write(&mut file, &StoreOptions::default())?;
+    Lod::from_owner(file.into_inner())
         .map_err(|source| RenderError::Open { path: "built-in surface".into(), source })
 }
 

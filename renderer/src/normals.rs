@@ -98,7 +98,7 @@ mod tests {
             errors: vec![0.0, 1.0],
             ..History::default()
         };
-        let lod = crate::builtin::stored(&mesh, &history).unwrap();
+        let lod = crate::builtin::stored(|file, options| history.write_to(file, &mesh, options)).unwrap();
         assert_eq!((lod.n_levels(), lod.vertices().len()), (2, 5));
         for (position, normal) in lod.vertices().iter().zip(vertex_normals(&lod)) {
             let expected = if position[2] > 0.0 { [0, -i16::MAX, 0, 0] } else { [0, 0, i16::MAX, 0] };

@@ -1,8 +1,7 @@
 //! Promise: the program writes whole pictures and one JSON object, or fails with one line.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use nephrite::{BuildOptions, Provenance, StoreOptions, generate};
-use std::ops::ControlFlow::Continue;
+use nephrite::{BuildOptions, StoreOptions, generate};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -14,9 +13,8 @@ fn renderer(folder: &Path) -> Command {
 
 fn write_levels(path: &Path) {
     let mesh = generate::torus(30, 15);
-    let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| Continue(())).unwrap();
-    let options = StoreOptions::default();
-    nephrite::write(path, &build.mesh, &build.history, &Provenance::default(), &options).unwrap();
+    let build = nephrite::build(&mesh, &BuildOptions::default()).unwrap();
+    build.write(path, &StoreOptions::default()).unwrap();
 }
 
 /// The line of the program itself; drivers write other lines.

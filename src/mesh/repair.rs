@@ -25,6 +25,16 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// How many vertices and triangles each rule of the repair touched.
+///
+/// ```
+/// use nephrite::{BuildOptions, RepairReport, build, generate};
+/// let mut mesh = generate::torus(16, 8);
+/// mesh.triangles.push(mesh.triangles[0]);
+/// let build = build(&mesh, &BuildOptions::default())?;
+/// let expected = RepairReport { triangles_duplicate: 1, ..RepairReport::default() };
+/// assert_eq!(*build.repairs(), expected);
+/// # Ok::<(), nephrite::BuildError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RepairReport {
     /// Vertices merged into an identical one.

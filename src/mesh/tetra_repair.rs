@@ -27,6 +27,13 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
 /// How many vertices and tetrahedra each rule of the repair touched.
+///
+/// ```
+/// use nephrite::{TetrahedronRepairReport, generate, repair_volume};
+/// let (_, report) = repair_volume(&generate::box_volume([2; 3]))?;
+/// assert_eq!(report, TetrahedronRepairReport::default());
+/// # Ok::<(), nephrite::MeshFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TetrahedronRepairReport {
     /// Vertices merged into another at the same position.

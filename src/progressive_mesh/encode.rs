@@ -12,6 +12,14 @@ use crate::flat::NO_INDEX;
 use nephrite_formats::TriangleMesh;
 
 /// A stream and its sizes.
+///
+/// ```
+/// use nephrite::{BuildOptions, Encoded, ProgressiveOptions, build, generate};
+/// let options = BuildOptions::with(ProgressiveOptions::default());
+/// let Encoded { bytes, plain_bytes, .. } = build(generate::cosine(20), &options)?.operations()?;
+/// assert!(bytes.len() < plain_bytes);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Encoded {
     /// The stream.

@@ -16,7 +16,7 @@ use crate::tree::Difference;
 /// ```no_run
 /// # let lod = nephrite::Lod::open("bunny.neph")?;
 /// # let (mut add, mut remove) = (|_: &[u32]| (), |_: &[u32]| ());
-/// let delta = lod.delta(7, 8);
+/// let delta: nephrite::Delta = lod.delta(7, 8);
 /// for run in delta.leaving() {
 ///     lod.indices()[run.index_range(3)].chunks(3).for_each(&mut remove);
 /// }

@@ -23,6 +23,14 @@ pub struct Opened {
 }
 
 /// A per-vertex attribute of an opened file.
+///
+/// ```no_run
+/// use nephrite::{AttributeView, Lod};
+/// let lod = Lod::open("bunny.neph")?;
+/// let colors: Option<AttributeView> = lod.attributes().find(|attribute| attribute.name == "color");
+/// assert!(colors.is_none_or(|colors| colors.bytes.len() == lod.vertices().len() * colors.stride_bytes()));
+/// # Ok::<(), nephrite::OpenError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AttributeView<'a> {
     /// Its name.

@@ -34,21 +34,6 @@ pub enum TreeError {
 /// Where every lifetime is stored: the structure of a tree, without the simplices.
 ///
 /// Memory: 4 bytes per slot and 4 bytes per height and level.
-///
-/// ```
-/// use nephrite::{Layout, Lifetime, Run, Tree};
-/// // Three simplices over four levels: one alive throughout, one at level 0, one from level 1 on.
-/// let lifetimes = [(0, 4), (0, 1), (1, 4)];
-/// let layout = Layout::build(4, 3, |id| {
-///     let (birth, death) = lifetimes[id as usize];
-///     Lifetime::new(birth, death)
-/// })?;
-/// let (offsets, runs) = layout.runs();
-/// let tree = Tree::new(&offsets, &runs, layout.slots().len() as u32);
-/// let alive = tree.stab(1).flat_map(|run| &layout.slots()[run.range()]);
-/// assert!(alive.eq(&[0, 2]));
-/// # Ok::<(), nephrite::TreeError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     n_levels: u32,
@@ -249,6 +234,18 @@ mod tests {
     use super::*;
     use crate::tree::{Tree, TreeFault};
     use proptest::prelude::*;
+
+    #[test]
+    fn a_level_is_stabbed() {
+        // Alive throughout, at level 0, and from level 1 on.
+        let lifetimes = [(0, 4), (0, 1), (1, 4)];
+        let lifetime = |id: u32| Lifetime::new(lifetimes[id as usize].0, lifetimes[id as usize].1);
+        let layout = Layout::build(4, 3, lifetime).unwrap();
+        let (offsets, runs) = layout.runs();
+        let tree = crate::tree::Tree::new(&offsets, &runs, u32::try_from(layout.slots().len()).unwrap());
+        let alive = tree.stab(1).flat_map(|run| &layout.slots()[run.range()]);
+        assert!(alive.eq(&[0, 2]));
+    }
 
     /// Lifetimes over `n_levels` levels, some of them empty.
     fn lifetimes() -> impl Strategy<Value = (u32, Vec<(u32, u32)>)> {

@@ -59,12 +59,6 @@ pub struct Lifetime {
 
 impl Lifetime {
     /// `None` if no level lies in `[birth, death)`.
-    ///
-    /// ```
-    /// use nephrite::Lifetime;
-    /// assert!(Lifetime::new(3, 3).is_none());
-    /// assert!(Lifetime::new(3, 5).is_some_and(|life| life.contains(4) && !life.contains(5)));
-    /// ```
     pub fn new(birth: u32, death: u32) -> Option<Self> {
         (birth < death).then_some(Self { birth, death })
     }
@@ -92,5 +86,16 @@ impl Lifetime {
     /// Height of the node it lives in: the bit length of `birth ^ last`.
     pub fn height(self) -> u32 {
         u32::BITS - (self.birth ^ self.last()).leading_zeros()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lifetime;
+
+    #[test]
+    fn a_lifetime_has_a_level() {
+        assert_eq!(Lifetime::new(3, 3), None);
+        assert!(Lifetime::new(3, 5).is_some_and(|life| life.contains(4) && !life.contains(5)));
     }
 }

@@ -31,13 +31,6 @@ impl FanOrder {
     /// The order of `triangles`: each index below their number, once.
     ///
     /// `None` if a vertex is out of range or the corners do not fit in 32 bits.
-    ///
-    /// ```
-    /// use nephrite::FanOrder;
-    /// let triangles = [[0, 1, 2], [5, 6, 7], [0, 2, 3], [5, 7, 8]];
-    /// assert_eq!(FanOrder::new(9).order(&triangles), Some(vec![0, 2, 1, 3]));
-    /// assert_eq!(FanOrder::new(8).order(&triangles), None);
-    /// ```
     pub fn order(&mut self, triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
         self.order_owned(triangles.to_vec())
     }
@@ -193,6 +186,13 @@ impl Drawing {
 mod tests {
     use super::*;
     use crate::vertex_cache::miss_ratio;
+
+    #[test]
+    fn neighbours_come_together() {
+        let triangles = [[0, 1, 2], [5, 6, 7], [0, 2, 3], [5, 7, 8]];
+        assert_eq!(FanOrder::new(9).order(&triangles), Some(vec![0, 2, 1, 3]));
+        assert_eq!(FanOrder::new(8).order(&triangles), None);
+    }
 
     /// Triangles of a grid in an order without any locality.
     fn shuffled_grid(side: u32) -> Vec<[u32; 3]> {

@@ -6,7 +6,7 @@
 //! a limit, evenly spread ones above it.
 
 use clap::Parser;
-use nephrite::{ProgressiveMesh, encode};
+use nephrite::ProgressiveMesh;
 use nephrite_compare::{decimate_progressively, load};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -76,8 +76,8 @@ fn check(path: &Path, arguments: &Arguments) -> Result<Option<String>, Vec<Strin
         }
     };
     let n_steps = every_step::check(&build, fail);
-    let n_in = build.mesh.triangles.len();
-    match encode(&build).and_then(|encoded| ProgressiveMesh::from_bytes(&encoded.bytes)) {
+    let n_in = build.history().n_alive(0);
+    match build.operations().and_then(|encoded| ProgressiveMesh::from_bytes(&encoded.bytes)) {
         Ok(mut stream) => ask_for_counts(&mut stream, n_in, arguments.counts, fail),
         Err(error) => fail(error.to_string()),
     }

@@ -6,8 +6,8 @@
 //! before nothing are listed too.
 
 use clap::Parser;
-use nephrite::{Build, NEVER, Passage, TriangleMesh};
 use nephrite::generate::{Drilling, drilled_plate, heat_exchanger, shell};
+use nephrite::{Build, NEVER, TriangleMesh};
 use nephrite_compare::{CompareError, Table, decimate_progressively};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -83,9 +83,8 @@ fn print_part(part: &Part) -> Result<(), CompareError> {
         let plain = decimate_progressively(&part.mesh, reduction, false)?;
         let milliseconds = 1e3 * start.elapsed().as_secs_f64();
         let split = decimate_progressively(&part.mesh, reduction, true)?;
-        let counts =
-            |build: &Build| build.passage.as_ref().map(|Passage { counts, .. }| *counts).unwrap_or_default();
-        let left = |build: &Build| build.history.death.iter().filter(|&&death| death == NEVER).count();
+        let counts = |build: &Build| build.progressive().map(|report| report.counts).unwrap_or_default();
+        let left = |build: &Build| build.history().death.iter().filter(|&&death| death == NEVER).count();
         table.push([
             format!("{reduction:.2}"),
             left(&plain).to_string(),
@@ -115,9 +114,9 @@ fn print_last_stages() -> Result<(), CompareError> {
         let left = 1.0 - (paper as f64 + 0.5) / n_in as f64;
         let build = decimate_progressively(&mesh, left, true)?;
         let mut by_face = [0; 3];
-        let alive = build.history.simplices.iter().zip(&build.history.death);
+        let alive = build.history().simplices.iter().zip(&build.history().death);
         for (triangle, _) in alive.filter(|&(_, &death)| death == NEVER) {
-            let heights = triangle.map(|v| build.mesh.positions[v as usize][2].to_bits());
+            let heights = triangle.map(|v| build.vertices().positions[v as usize][2].to_bits());
             let face = if heights[0] != heights[1] || heights[1] != heights[2] {
                 2
             } else {

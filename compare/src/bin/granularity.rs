@@ -7,11 +7,10 @@
 //! buffer.
 
 use clap::Parser;
-use nephrite::{BuildOptions, Lod, Provenance, StoreOptions, write_to};
+use nephrite::{BuildOptions, Lod, StoreOptions};
 use nephrite_compare::chain::{CHAIN_END, chain_of_halvings};
 use nephrite_compare::{CompareError, Table, load};
 use std::io::Cursor;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -73,12 +72,12 @@ fn run(arguments: &Arguments) -> Result<(), CompareError> {
             "1".to_owned(),
             "-".to_owned(),
         ]);
-        let build = nephrite::build(&mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?;
+        let build = nephrite::build(&mesh, &BuildOptions::default())?;
         for window_levels in WINDOWS {
             let bytes = |is_compact| -> Result<Vec<u8>, CompareError> {
                 let options = StoreOptions { window_levels, is_compact, ..StoreOptions::default() };
                 let mut file = Cursor::new(vec![]);
-                write_to(&mut file, &build.mesh, &build.history, &Provenance::default(), &options)?;
+                build.write_to(&mut file, &options)?;
                 Ok(file.into_inner())
             };
             let (plain, compact) = (bytes(false)?, bytes(true)?);

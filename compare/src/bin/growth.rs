@@ -6,7 +6,8 @@
 //! lifetimes take some 1.5 GB of memory and half a minute.
 
 use clap::Parser;
-use nephrite::{Layout, Tree, TreeError};
+use nephrite::TreeError;
+use nephrite::internals::{Layout, Tree};
 use nephrite_compare::Table;
 use nephrite_compare::lifetimes::{SyntheticLifetimes, even};
 use nephrite_compare::statistics::percentile;

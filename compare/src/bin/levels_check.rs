@@ -7,8 +7,8 @@
 //! `metro_check.py` does it with PyMeshLab's Metro.
 
 use clap::Parser;
-use nephrite::{BuildOptions, JadeOptions, Placement, TriangleMesh};
 use nephrite::measure::{MeasureOptions, measure};
+use nephrite::{BuildOptions, JadeOptions, Placement, TriangleMesh};
 use nephrite_compare::statistics::{median, percentile};
 use nephrite_compare::{CompareError, KeptLevels, Table, build_lod, load, spread_levels};
 use serde_json::{Value, json};
@@ -131,7 +131,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, CompareError> {
 fn check_mesh(path: &Path, arguments: &Arguments) -> Result<Vec<Checked>, CompareError> {
     let mesh = load(path)?;
     let placement = if arguments.best_placement { Placement::Best } else { Placement::Original };
-    let options = BuildOptions { jade: JadeOptions::of_placement(placement), ..BuildOptions::default() };
+    let options = BuildOptions::with(JadeOptions::certified(placement));
     let build = build_lod(&mesh, &options, KeptLevels::Usual)?;
     let options = MeasureOptions { n_samples: arguments.samples, ..MeasureOptions::default() };
     let levels = spread_levels(&build.lod, arguments.levels).into_iter();

@@ -6,7 +6,7 @@
 //! repair, decimation and the record of the whole history.
 
 use clap::Parser;
-use nephrite::{Build, Passage, ProgressiveMesh, StreamError, TriangleMesh, encode};
+use nephrite::{Build, ProgressiveMesh, StreamError, TriangleMesh};
 use nephrite_compare::statistics::median;
 use nephrite_compare::{Table, decimate_progressively, load};
 use std::hint::black_box;
@@ -77,7 +77,7 @@ fn compare(path: &Path, arguments: &Arguments) -> Result<(), Box<dyn std::error:
             let start = Instant::now();
             let build = decimate_progressively(&mesh, reduction, arguments.pre_split)?;
             ours.push(start.elapsed().as_secs_f64());
-            counts = build.passage.as_ref().map(|Passage { counts, .. }| *counts);
+            counts = build.progressive().map(|report| report.counts);
             if let Some(python) = &arguments.python {
                 theirs.push(vtk_seconds(python, path, reduction)?);
             }
@@ -140,10 +140,10 @@ fn vtk_seconds(python: &Path, mesh: &Path, reduction: f64) -> Result<f64, Box<dy
 
 /// Prints the size of the operations and how fast they play.
 fn print_stream(build: &Build, repeats: usize) -> Result<(), StreamError> {
-    let encoded = encode(build)?;
+    let encoded = build.operations()?;
     let n_vertices = encoded.n_vertices as f64;
-    let n_copies = build.passage.as_ref().map_or(0, |passage| passage.trace.copies.len());
-    let standard = 12.0 * (build.mesh.triangles.len() + build.mesh.positions.len() - n_copies) as f64;
+    let n_copies = build.history().vertex_birth.iter().filter(|&&birth| birth > 0).count();
+    let standard = 12.0 * (build.history().n_alive(0) + build.vertices().positions.len() - n_copies) as f64;
     println!(
         "{} operations: {:.3} of indices and positions uncoded, {:.3} coded, {:.1} bits per vertex",
         encoded.n_operations,

@@ -7,12 +7,11 @@
 //! Memory is measured on Linux only.
 
 use clap::{Parser, ValueEnum};
-use nephrite::{BuildError, BuildOptions, TriangleMesh, build_from};
+use nephrite::{BuildError, BuildOptions, TriangleMesh};
 use nephrite_compare::chain::chain_of_halvings;
 use nephrite_compare::{CompareError, Table, load, stopwatch::in_turn};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Duration;
@@ -111,8 +110,8 @@ fn pool(n_threads: usize) -> Result<ThreadPool, CompareError> {
 
 /// All levels with a proven error; returns their number.
 fn history(mesh: &TriangleMesh) -> Result<usize, BuildError> {
-    let build = nephrite::build(mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?;
-    Ok(build.history.errors.len())
+    let build = nephrite::build(mesh, &BuildOptions::default())?;
+    Ok(build.history().errors.len())
 }
 
 /// Memory of simplifying a mesh beside the mesh itself, in bytes; `None` if the system does not
@@ -140,7 +139,7 @@ fn print_memory(system: System, path: &Path) -> Result<(), CompareError> {
     std::fs::write("/proc/self/clear_refs", "5")?;
     match system {
         System::Nephrite => {
-            _ = black_box(build_from(mesh, &BuildOptions::default(), &|_| ControlFlow::Continue(()))?);
+            _ = black_box(nephrite::build(mesh, &BuildOptions::default())?);
         }
         System::Meshoptimizer => _ = black_box(chain_of_halvings(&mesh)?),
     }

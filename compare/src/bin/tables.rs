@@ -7,8 +7,8 @@
 //! Markdown.
 
 use clap::Parser;
-use nephrite::{Bound, BuildOptions, Cut, JadeOptions, Placement, TriangleMesh, generate};
 use nephrite::measure::{Distance, MeasureOptions, measure};
+use nephrite::{BuildOptions, Cut, EstimateKind, JadeOptions, Placement, TriangleMesh, generate};
 use nephrite_compare::anchors::{AT_ERROR, AT_TRIANGLES, AtError, AtTriangles, Simplified, Subject};
 use nephrite_compare::statistics::geometric_mean;
 use nephrite_compare::{Build, CompareError, KeptLevels, Table, build_lod, load};
@@ -48,14 +48,10 @@ struct Level {
 impl Study {
     fn new(subject: Subject, arguments: &Arguments) -> Result<Self, CompareError> {
         let mesh = surface(subject, &arguments.meshes)?;
-        let build = |bound, placement| {
-            let jade = JadeOptions::of_placement(placement);
-            let options = BuildOptions { bound, jade, ..BuildOptions::default() };
-            build_lod(&mesh, &options, KeptLevels::All)
-        };
-        let certified = build(Bound::Certified, Placement::Original)?;
-        let moved = build(Bound::Certified, Placement::Best)?;
-        let joint = build(Bound::Joint, Placement::Original)?;
+        let build = |jade| build_lod(&mesh, &BuildOptions::with(jade), KeptLevels::All);
+        let certified = build(JadeOptions::certified(Placement::Original))?;
+        let moved = build(JadeOptions::certified(Placement::Best))?;
+        let joint = build(JadeOptions::estimate(EstimateKind::Joint))?;
         let options = MeasureOptions { n_samples: arguments.samples, ..MeasureOptions::default() };
         Ok(Self { subject, certified, moved, joint, options, mesh })
     }

@@ -11,7 +11,6 @@ use clap::Parser;
 use nephrite::{FusionOptions, TetrahedronMesh, VolumeBuild, VolumeOptions, build_volume};
 use nephrite_compare::boundary_walk::{BoundaryWalk, events};
 use nephrite_compare::{CompareError, Table};
-use std::ops::ControlFlow::Continue;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -64,7 +63,7 @@ fn run(arguments: &Arguments) -> Result<bool, CompareError> {
         {
             let fusion = FusionOptions { tetrahedron_share: share, ..FusionOptions::default() };
             let options = VolumeOptions { fusion, ..VolumeOptions::default() };
-            let build = build_volume(&mesh, &options, &|_| Continue(()))?;
+            let build = build_volume(&mesh, &options)?;
             let walked = walk(&build);
             is_whole &= walked.is_whole();
             steps.push(walked.row(&name, order));
@@ -97,7 +96,9 @@ struct Walked {
 }
 
 fn walk(build: &VolumeBuild) -> Walked {
-    let (mesh, history): (&TetrahedronMesh, _) = (&build.mesh, &build.history);
+    let history = build.history();
+    let positions = build.vertices().positions.to_vec();
+    let mesh = &TetrahedronMesh { positions, ..TetrahedronMesh::default() };
     let mut walk = BoundaryWalk::default();
     let mut events = events(history).into_iter();
     let start = events.next().unwrap_or_default();
@@ -119,7 +120,7 @@ fn walk(build: &VolumeBuild) -> Walked {
     for (step, [dead, born]) in (1..).zip(events) {
         let walk = &mut walked.end;
         let is_inner = prey[step].iter().all(|&v| !walk.is_on_boundary(v));
-        if step <= build.n_tetrahedron_fusions && is_inner {
+        if step <= build.fusions().n_tetrahedron_fusions && is_inner {
             let n_taken = dead.len() - born.len();
             walked.n_inner += 1;
             walked.n_inner_taken += n_taken;
@@ -180,15 +181,15 @@ impl Walked {
     }
 
     fn fusions_row(&self, name: &str, build: &VolumeBuild) -> [String; 7] {
-        let n_in = build.mesh.tetrahedra.len();
-        let n_taken = n_in - build.n_left_by_tetrahedra;
+        let n_in = build.history().n_alive(0);
+        let n_taken = n_in - build.fusions().n_left_by_tetrahedra;
         let a_fusion = |taken: usize, n: usize| format!("{:.1}", taken as f64 / n.max(1) as f64);
         [
             name.to_owned(),
             n_in.to_string(),
-            build.n_left_by_tetrahedra.to_string(),
+            build.fusions().n_left_by_tetrahedra.to_string(),
             format!("{:.1} %", 100.0 * n_taken as f64 / n_in as f64),
-            a_fusion(n_taken, build.n_tetrahedron_fusions),
+            a_fusion(n_taken, build.fusions().n_tetrahedron_fusions),
             a_fusion(self.n_inner_taken, self.n_inner),
             self.least_inner.to_string(),
         ]

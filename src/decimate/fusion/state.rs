@@ -54,6 +54,14 @@ pub(super) struct State {
 }
 
 /// What a fusion tells beside the history.
+///
+/// ```
+/// use nephrite::{FusionReport, VolumeOptions, build_volume, generate};
+/// let build = build_volume(&generate::box_volume([6; 3]), &VolumeOptions::default())?;
+/// let FusionReport { n_fusions, n_tetrahedron_fusions, .. } = *build.fusions();
+/// assert!(n_tetrahedron_fusions < n_fusions);
+/// # Ok::<(), nephrite::BuildError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FusionReport {
     /// Fusions made.

@@ -41,6 +41,17 @@ pub use options::{ProgressiveBound, ProgressiveOptions};
 pub(crate) use run::run;
 
 /// What this decimator leaves beside the history.
+///
+/// ```
+/// use nephrite::{BuildOptions, Event, EventKind, ProgressiveOptions, ProgressiveReport, Tally, build, generate};
+/// let build = build(generate::torus(16, 8), &BuildOptions::with(ProgressiveOptions::default()))?;
+/// let report: &ProgressiveReport = build.progressive().ok_or("another decimator")?;
+/// assert!(report.counts.collapses > 0);
+/// let vanished = |tally: &&Tally| tally.kind == EventKind::ComponentVanished;
+/// let Event { triangles, .. } = report.events.tallies().find(vanished).ok_or("no event")?.last;
+/// assert_eq!(triangles, 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ProgressiveReport {
     /// All operations.
