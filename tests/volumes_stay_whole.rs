@@ -194,3 +194,51 @@ fn fields_of_the_largest_values_are_written() {
     let (build, lod) = built(&mesh, &VolumeOptions::default());
     assert!(build.fusions().n_fusions > 0 && lod.n_levels() > 1);
 }
+
+#[test]
+fn a_locked_boundary_stays() {
+    let input = ball_volume(12);
+    let options = VolumeOptions { lock_boundary: true, ..VolumeOptions::default() };
+    let (_, lod) = built(&input, &options);
+    check(&input, &lod, &spread(&lod, 5));
+    let triangles = |level: u32| {
+        let surface = lod.at_level(level).boundary().unwrap();
+        let place = |v: u32| surface.positions[v as usize].map(f32::to_bits);
+        let sorted = |t: &[u32; 3]| {
+            let mut corners = t.map(place);
+            corners.sort_unstable();
+            corners
+        };
+        surface.triangles.iter().map(sorted).collect::<BTreeSet<_>>()
+    };
+    let last = lod.n_levels() - 1;
+    assert!(spread(&lod, 8).iter().all(|&level| triangles(level) == triangles(0)));
+    assert!(lod.errors().iter().all(|&error| error == 0.0));
+    let n_coarsest = lod.at_level(last).n_simplices();
+    assert!(n_coarsest * 2 < input.tetrahedra.len(), "{n_coarsest}");
+}
+
+/// A coarse box beside a fine one.
+#[test]
+fn hanging_nodes_are_told() {
+    let [mut mesh, fine] = [[4; 3], [8; 3]].map(box_volume);
+    let build = |mesh: &TetrahedronMesh| {
+        let build = build_volume(mesh, &VolumeOptions::default()).unwrap();
+        (build.repairs().faces_at_hanging_nodes, build.inner_wall_area())
+    };
+    assert_eq!(build(&mesh), (0, 0.0));
+    let n_vertices = mesh.positions.len() as u32;
+    mesh.attributes.clear();
+    mesh.positions.extend(fine.positions.iter().map(|&[x, y, z]| [x + 1.0, y, z]));
+    mesh.tetrahedra.extend(fine.tetrahedra.iter().map(|t| t.map(|v| v + n_vertices)));
+    let (n_faces, area) = build(&mesh);
+    assert_eq!(n_faces, 2 * (16 + 64));
+    assert!((area - 2.0).abs() < 1e-9, "{area}");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/cases/volumes/amr_hanging.vtu");
+    if !path.is_file() {
+        eprintln!("skipped: no {}", path.display());
+        return;
+    }
+    let (input, _) = nephrite_formats::read_volume(&path).unwrap();
+    assert!((build(&input).1 - 2.0).abs() < 1e-9 && (input.volume() - 2.0).abs() < 1e-6);
+}

@@ -54,6 +54,9 @@ pub struct VolumeOptions {
     pub max_error: Option<f64>,
     /// Edges of the boundary at which its normals turn by more than this, in degrees, are feature edges.
     pub feature_angle_degrees: f64,
+    /// Whether the vertices of the boundary stay, each at its place at every level, so that neighbouring parts of one volume fit
+    /// at any level of each.
+    pub lock_boundary: bool,
     /// Constants of the fusion.
     pub fusion: FusionOptions,
 }
@@ -84,7 +87,12 @@ impl Default for BuildOptions {
 
 impl Default for VolumeOptions {
     fn default() -> Self {
-        Self { max_error: None, feature_angle_degrees: 40.0, fusion: FusionOptions::default() }
+        Self {
+            max_error: None,
+            feature_angle_degrees: 40.0,
+            lock_boundary: false,
+            fusion: FusionOptions::default(),
+        }
     }
 }
 
@@ -175,6 +183,7 @@ impl VolumeOptions {
         json!({
             "max_error": self.max_error,
             "feature_angle_degrees": self.feature_angle_degrees,
+            "lock_boundary": self.lock_boundary,
             "fusion": {
                 "field_weight": field_weight,
                 "tetrahedron_share": tetrahedron_share,

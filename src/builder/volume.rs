@@ -3,8 +3,13 @@
 use super::{BuildError, Observer, Phase, Progress, VolumeOptions};
 use crate::decimate::fusion::{self, FusionReport};
 use crate::decimate::{Decimated, Input};
+use crate::geometry::distance::Triangle;
+use crate::geometry::vector::{Vector, widen};
 use crate::history::History;
-use crate::mesh::{TetrahedronRepairReport, check_counts, repair_tetrahedra};
+use crate::measure::{bound_of_pieces, inner_walls};
+use crate::mesh::{
+    LostParts, RepairedVolume, TetrahedronRepairReport, boundary_faces, check_counts, repair_tetrahedra,
+};
 use crate::store::Vertices;
 use nephrite_formats::{MeshFault, TetrahedronMesh};
 use std::ops::ControlFlow;
@@ -20,6 +25,10 @@ pub struct VolumeBuild {
     mesh: TetrahedronMesh,
     history: History<4>,
     pub(super) repairs: TetrahedronRepairReport,
+    /// See [`dropped_distance`](Self::dropped_distance).
+    dropped_distance: f64,
+    /// See [`inner_wall_area`](Self::inner_wall_area).
+    inner_wall_area: f64,
     fusions: FusionReport,
 }
 
@@ -53,6 +62,18 @@ impl VolumeBuild {
     /// What the repair did.
     pub fn repairs(&self) -> &TetrahedronRepairReport {
         &self.repairs
+    }
+
+    /// Bound on the distance between the boundary of the input and that of the repaired mesh, both ways, in mesh units; part of
+    /// the error of every level.
+    pub fn dropped_distance(&self) -> f64 {
+        self.dropped_distance
+    }
+
+    /// Area of the walls inside the boundary, both sheets, in square mesh units: faces that lie on others the other way round, as
+    /// where nodes hang at the edge of a refined part.
+    pub fn inner_wall_area(&self) -> f64 {
+        self.inner_wall_area
     }
 
     /// How many fusions there were.
@@ -99,14 +120,26 @@ pub fn build_volume_with(
     if tell(Phase::Repair, n_tetrahedra_in, 0.0).is_break() {
         return Err(BuildError::Interrupted);
     }
-    let (mesh, repairs) = repair_tetrahedra(mesh);
-    if mesh.tetrahedra.is_empty() {
+    let repaired = repair_tetrahedra(mesh);
+    if repaired.mesh.tetrahedra.is_empty() {
         return Err(BuildError::NoTetrahedra { n_tetrahedra: n_tetrahedra_in });
     }
-    let cos_feature_angle = options.feature_angle_degrees.to_radians().cos();
-    let watch = |n_alive, error| tell(Phase::Decimate, n_alive, error);
-    let input = Input { mesh, max_error: options.max_error, cos_feature_angle, lock_boundary: false };
-    let Decimated { mesh, history, report } = fusion::run(input, &options.fusion, &watch)?;
+    let (boundary, apexes) = boundary_of(&repaired);
+    let walls = inner_walls(&boundary, &apexes);
+    let dropped_distance = bound_of_lost(&repaired.lost, &boundary);
+    drop((boundary, apexes));
+    let repairs = TetrahedronRepairReport { faces_at_hanging_nodes: walls.n_faces, ..repaired.report };
+    let watch = |n_alive, error| tell(Phase::Decimate, n_alive, error + dropped_distance);
+    let input = Input {
+        mesh: repaired,
+        max_error: options.max_error.map(|error| (error - dropped_distance).max(0.0)),
+        cos_feature_angle: options.feature_angle_degrees.to_radians().cos(),
+        lock_boundary: options.lock_boundary,
+    };
+    let Decimated { mesh, mut history, report } = fusion::run(input, &options.fusion, &watch)?;
+    if dropped_distance > 0.0 {
+        history.errors.iter_mut().for_each(|error| *error += dropped_distance);
+    }
     Ok(VolumeBuild {
         options: *options,
         n_vertices_in,
@@ -114,6 +147,8 @@ pub fn build_volume_with(
         mesh,
         history,
         repairs,
+        dropped_distance,
+        inner_wall_area: walls.area,
         fusions: report,
     })
 }
@@ -133,5 +168,27 @@ pub fn repair_volume(
     mesh: &TetrahedronMesh,
 ) -> Result<(TetrahedronMesh, TetrahedronRepairReport), MeshFault> {
     mesh.check()?;
-    Ok(repair_tetrahedra(mesh))
+    let RepairedVolume { mesh, report, .. } = repair_tetrahedra(mesh);
+    Ok((mesh, report))
+}
+
+/// The boundary of a repaired volume, and the fourth corner of the tetrahedron at each triangle.
+fn boundary_of(RepairedVolume { mesh, points, .. }: &RepairedVolume) -> (Vec<Triangle>, Vec<Vector>) {
+    let point = |v: u32| points.as_ref().map_or(v, |points| points[v as usize]);
+    let tetrahedra: Vec<[u32; 4]> = mesh.tetrahedra.iter().map(|t| t.map(point)).collect();
+    let place = |t: usize, i: usize| widen(mesh.positions[tetrahedra[t][i] as usize]);
+    let faces = boundary_faces(&tetrahedra, mesh.positions.len());
+    // The corners of a tetrahedron are 0 to 3, which add up to 6.
+    let apex = |face: [usize; 3]| 6 - face.iter().sum::<usize>();
+    faces.map(|(t, face)| (face.map(|i| place(t, i)), place(t, apex(face)))).unzip()
+}
+
+/// Bound on the distance between the boundary of the input and that of the repaired mesh, both ways.
+fn bound_of_lost(lost: &LostParts, boundary: &[Triangle]) -> f64 {
+    let of_peeled =
+        bound_of_pieces(&lost.peeled, &lost.bared).max(bound_of_pieces(&lost.bared, &lost.peeled));
+    if lost.loose.is_empty() {
+        return of_peeled;
+    }
+    of_peeled.max(bound_of_pieces(&lost.loose, &[boundary, &lost.beside_loose].concat()))
 }

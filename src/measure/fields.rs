@@ -1,13 +1,17 @@
 //! How far the fields of two volumes are apart, sampled at the vertices of each in the other.
 
-use super::locator::Locator;
+use super::locator::{Locator, Place};
 use super::{MeasureError, Side};
-use nephrite_formats::{Attribute, TetrahedronMesh};
+use crate::geometry::barycentric::{interpolate, largest};
+use crate::mesh::has_coincident;
+use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh};
 use rayon::prelude::*;
 use serde::Serialize;
 
 /// How far one field of two volumes is apart, in the unit of the field. For a field of several
-/// components it is the length of the difference. Sampled, not proven.
+/// components it is the length of the difference; for one of whole numbers it is 1 where the value
+/// is not that of the nearest corner, and 0 elsewhere. Values that are not finite are left out.
+/// Sampled, not proven.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FieldDistance {
     /// Name of the field, which both volumes have.
@@ -69,63 +73,102 @@ pub fn measure_fields(
     if pairs.is_empty() {
         return Ok(Vec::new());
     }
-    let forward = Places::find(reference, mesh);
-    let backward = Places::find(mesh, reference);
-    let measured = pairs.par_iter().map(|[ours, theirs]| {
-        let n = ours.n_components as usize;
-        let values = [ours, theirs].map(|field| field.values().collect::<Vec<f64>>());
-        let [there, back] =
-            [forward.differences(&values[0], &values[1], n), backward.differences(&values[1], &values[0], n)];
+    let fields: Vec<[Field; 2]> = pairs.iter().map(|pair| pair.map(Field::new)).collect();
+    let forward = differences(reference, mesh, &fields);
+    let swapped: Vec<[Field; 2]> =
+        fields.iter().map(|[ours, theirs]| [theirs.clone(), ours.clone()]).collect();
+    let backward = differences(mesh, reference, &swapped);
+    let measured = pairs.iter().zip(&fields).enumerate().map(|(i, ([ours, _], [field, _]))| {
+        let of_field = |rows: &[Option<Vec<f64>>]| -> Vec<f64> {
+            rows.iter().flatten().map(|row| row[i]).filter(|difference| !difference.is_nan()).collect()
+        };
+        let [there, back] = [&forward, &backward].map(|rows| of_field(rows));
         let max = |differences: &[f64]| differences.iter().copied().fold(0.0, f64::max);
         let squares: f64 = there.iter().map(|difference| difference * difference).sum();
-        let n_samples = there.len() + back.len();
+        let n_outside = forward.iter().chain(&backward).filter(|row| row.is_none()).count();
         FieldDistance {
             name: ours.name.clone(),
             max: max(&there).max(max(&back)),
             max_forward: max(&there),
             max_backward: max(&back),
             rms: (squares / there.len().max(1) as f64).sqrt(),
-            range: range(&values[0], n),
-            n_samples,
-            n_outside: reference.positions.len() + mesh.positions.len() - n_samples,
+            range: range(&field.values, field.n_components),
+            n_samples: there.len() + back.len(),
+            n_outside,
         }
     });
     Ok(measured.collect())
 }
 
-/// Where the vertices of one volume are in the other.
-struct Places {
-    places: Vec<Option<([u32; 4], [f64; 4])>>,
+/// A field in `f64`.
+#[derive(Clone)]
+struct Field {
+    values: Vec<f64>,
+    n_components: usize,
+    is_whole: bool,
 }
 
-impl Places {
-    fn find(vertices: &TetrahedronMesh, volume: &TetrahedronMesh) -> Self {
-        let locator = Locator::new(volume);
-        let shift: [f64; 3] = std::array::from_fn(|axis| vertices.origin[axis] - volume.origin[axis]);
-        let find = |p: &[f32; 3]| locator.find(std::array::from_fn(|axis| f64::from(p[axis]) + shift[axis]));
-        Self { places: vertices.positions.par_iter().map(find).collect() }
+impl Field {
+    fn new(attribute: &Attribute) -> Self {
+        Self {
+            values: attribute.values().collect(),
+            n_components: attribute.n_components as usize,
+            is_whole: !matches!(attribute.scalar, ScalarType::F32 | ScalarType::F64),
+        }
     }
 
-    /// Lengths of the differences between values at vertices and the values of the other volume at
-    /// the same places.
-    fn differences(&self, ours: &[f64], theirs: &[f64], n: usize) -> Vec<f64> {
-        let placed = self.places.iter().enumerate().filter_map(|(v, place)| Some((v, (*place)?)));
-        placed
-            .map(|(v, (corners, weights))| {
-                let square = |component: usize| {
-                    let value = |corner: u32| theirs[corner as usize * n + component];
-                    let there: f64 = corners.iter().zip(weights).map(|(&corner, w)| w * value(corner)).sum();
-                    (ours[v * n + component] - there).powi(2)
-                };
-                (0..n).map(square).sum::<f64>().sqrt()
-            })
-            .collect()
+    fn at(&self, v: u32) -> &[f64] {
+        &self.values[v as usize * self.n_components..][..self.n_components]
+    }
+
+    /// How far the values at a vertex are from those of another field at a place; NaN if none of
+    /// them can be compared.
+    fn difference(&self, v: u32, theirs: &Self, (corners, weights): Place) -> f64 {
+        if self.is_whole && theirs.is_whole {
+            let differs = self.at(v) != theirs.at(corners[largest(weights)]);
+            return f64::from(u8::from(differs));
+        }
+        let there = |i: usize| interpolate(corners.map(|corner| theirs.at(corner)[i]), weights);
+        let pairs = self.at(v).iter().enumerate().map(|(i, &here)| [here, there(i)]);
+        let finite = pairs.filter(|pair| pair.iter().all(|value| value.is_finite()));
+        let squares = finite.map(|[here, there]| (here - there).powi(2));
+        squares.reduce(|sum, square| sum + square).map_or(f64::NAN, f64::sqrt)
     }
 }
 
+/// For each vertex the difference of each field from the other volume's at its place; `None`
+/// outside. At a jump a place has the values of several sides: the least difference counts, since
+/// the vertex belongs to one of them.
+fn differences(
+    vertices: &TetrahedronMesh,
+    volume: &TetrahedronMesh,
+    fields: &[[Field; 2]],
+) -> Vec<Option<Vec<f64>>> {
+    let locator = Locator::new(volume);
+    let has_jumps = has_coincident(volume);
+    let shift: [f64; 3] = std::array::from_fn(|axis| vertices.origin[axis] - volume.origin[axis]);
+    let of_vertex = |places: &mut Vec<Place>, (v, p): (usize, &[f32; 3])| {
+        let point = std::array::from_fn(|axis| f64::from(p[axis]) + shift[axis]);
+        if has_jumps {
+            locator.find_all(point, places);
+        } else {
+            places.clear();
+            places.extend(locator.find(point));
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "readers refuse more than u32::MAX vertices")]
+        let v = v as u32;
+        let difference = |[ours, theirs]: &[Field; 2]| {
+            places.iter().map(|&place| ours.difference(v, theirs, place)).fold(f64::NAN, f64::min)
+        };
+        (!places.is_empty()).then(|| fields.iter().map(difference).collect())
+    };
+    vertices.positions.par_iter().enumerate().map_init(Vec::new, of_vertex).collect()
+}
+
+/// Length of the diagonal of the box of all finite values.
 fn range(values: &[f64], n: usize) -> f64 {
     let side = |component: usize| {
-        let values = values.iter().skip(component).step_by(n);
+        let values = values.iter().skip(component).step_by(n).filter(|value| value.is_finite());
         let start = (f64::INFINITY, f64::NEG_INFINITY);
         let (low, high) = values.fold(start, |(low, high), &value| (low.min(value), high.max(value)));
         if high > low { (high - low).powi(2) } else { 0.0 }

@@ -15,6 +15,12 @@ const LEAF_LEN: usize = 4;
 /// positions.
 const TOLERANCE: f64 = 1e-5;
 
+/// Most tetrahedra at one point that are looked at.
+const MAX_PLACES: usize = 1024;
+
+/// The corners of a tetrahedron and the barycentric coordinates of a point there.
+pub(super) type Place = ([u32; 4], [f64; 4]);
+
 /// A tree of boxes over the tetrahedra of a volume.
 pub(super) struct Locator<'a> {
     volume: &'a TetrahedronMesh,
@@ -71,12 +77,35 @@ impl<'a> Locator<'a> {
 
     /// The corners of the tetrahedron that contains a point best, and the barycentric coordinates
     /// there; `None` if the point is outside of all.
-    pub(super) fn find(&self, point: Vector) -> Option<([u32; 4], [f64; 4])> {
+    pub(super) fn find(&self, point: Vector) -> Option<Place> {
         let mut best = None;
         let mut best_inside = -TOLERANCE;
+        self.visit(point, |place, inside| {
+            if inside >= best_inside {
+                (best_inside, best) = (inside, Some(place));
+            }
+            inside <= 0.0
+        });
+        best
+    }
+
+    /// All tetrahedra that contain a point, as [`find`](Self::find) gives one; of very many some.
+    pub(super) fn find_all(&self, point: Vector, places: &mut Vec<Place>) {
+        places.clear();
+        self.visit(point, |place, inside| {
+            if inside >= -TOLERANCE {
+                places.push(place);
+            }
+            places.len() < MAX_PLACES
+        });
+    }
+
+    /// Calls `visit` for each tetrahedron near a point, with the least coordinate there, until it
+    /// returns false.
+    fn visit(&self, point: Vector, mut visit: impl FnMut(Place, f64) -> bool) {
         let mut stack = vec![(0, 0..self.order.len())];
         while let Some((node, range)) = stack.pop() {
-            let [low, high] = self.boxes.get(node)?;
+            let Some([low, high]) = self.boxes.get(node) else { return };
             let margin = |axis: usize| TOLERANCE * (high[axis] - low[axis]);
             if (0..3).any(|i| point[i] < low[i] - margin(i) || point[i] > high[i] + margin(i)) {
                 continue;
@@ -90,16 +119,11 @@ impl<'a> Locator<'a> {
             for &tetrahedron in &self.order[range] {
                 let Some(weights) = barycentric(point, self.corners(tetrahedron)) else { continue };
                 let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
-                if inside >= best_inside {
-                    (best_inside, best) =
-                        (inside, Some((self.volume.tetrahedra[tetrahedron as usize], weights)));
-                }
-                if inside > 0.0 {
-                    return best;
+                if !visit((self.volume.tetrahedra[tetrahedron as usize], weights), inside) {
+                    return;
                 }
             }
         }
-        best
     }
 }
 

@@ -27,6 +27,7 @@ mod samples;
 mod search;
 mod surface;
 mod sweep;
+mod walls;
 
 pub use self::error::{MeasureError, Side};
 pub use self::fields::{FieldDistance, measure_fields};
@@ -38,6 +39,7 @@ use self::prove::{Bracket, Goal, Parts};
 pub use self::report::{Distance, MeasureOptions, OneSided, Verdict};
 use self::samples::Samples;
 use self::surface::{Frame, MeasuredSurface};
+pub(crate) use self::walls::inner_walls;
 use crate::TriangleMesh;
 use crate::geometry::vector::{self, Vector};
 

@@ -231,11 +231,41 @@ impl Sides {
 
 /// The faces that belong to one tetrahedron only, seen counter-clockwise from outside. O(n).
 pub fn boundary_triangles(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<[u32; 3]> {
+    let faces = boundary_faces(tetrahedra, n_vertices);
+    faces.map(|(tetrahedron, face)| face.map(|i| tetrahedra[tetrahedron][i])).collect()
+}
+
+/// As [`boundary_triangles`], each as its tetrahedron and the corners there. O(n).
+pub(crate) fn boundary_faces(
+    tetrahedra: &[[u32; 4]],
+    n_vertices: usize,
+) -> impl Iterator<Item = (usize, [usize; 3])> {
     let bits = Sides::new(tetrahedra, n_vertices).boundary;
-    let faces = tetrahedra.iter().zip(bits).flat_map(|(corners, bits)| {
-        (0..4).filter(move |i| bits >> i & 1 == 1).map(move |i| FACES[i].map(|j| corners[j]))
-    });
-    faces.collect()
+    bits.into_iter().enumerate().flat_map(|(tetrahedron, bits)| {
+        (0..4).filter(move |i| bits >> i & 1 == 1).map(move |i| (tetrahedron, FACES[i]))
+    })
+}
+
+/// The faces between tetrahedra that do not have the same vertices there. `corners` has the points of each tetrahedron, `vertices`
+/// the vertices at them. O(n).
+pub(crate) fn jump_faces(corners: &[[u32; 4]], vertices: &[[u32; 4]], n_points: usize) -> Vec<[u32; 3]> {
+    let vertex = |slot: u32, point: u32| {
+        let at = corners[slot as usize].iter().position(|&corner| corner == point);
+        at.map(|at| vertices[slot as usize][at])
+    };
+    let mut found = vec![];
+    for (v, list) in (0..).zip(faces_by_least_vertex(corners, n_points).iter_mut()) {
+        list.sort_unstable();
+        for same in list.chunk_by(|a, b| a.others == b.others) {
+            let face = [v, same[0].others[0], same[0].others[1]];
+            let differs =
+                |other: &Face| face.iter().any(|&p| vertex(other.slot, p) != vertex(same[0].slot, p));
+            if same[1..].iter().any(differs) {
+                found.push(face);
+            }
+        }
+    }
+    found
 }
 
 /// A face in the list of its least vertex.

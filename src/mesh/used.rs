@@ -26,11 +26,6 @@ impl UsedVertices {
         Self { vertices, numbers }
     }
 
-    /// How many there are.
-    pub(crate) fn len(&self) -> usize {
-        self.vertices.len()
-    }
-
     /// Gives used vertices their new numbers.
     pub(crate) fn renumber(&self, corners: &mut [u32]) {
         corners.iter_mut().for_each(|v| *v = self.numbers[*v as usize]);
@@ -65,7 +60,6 @@ mod tests {
         let mut corners = [5, 1, 3, 1, 3, 4];
         let used = UsedVertices::new(7, &corners);
         used.renumber(&mut corners);
-        assert_eq!(used.len(), 4);
         assert_eq!(corners, [3, 0, 1, 0, 1, 2]);
         assert_eq!(used.pick(&[0, 10, 20, 30, 40, 50, 60]), [10, 30, 40, 50]);
         let heights =

@@ -1,10 +1,13 @@
 //! The surface around a volume.
 
-use crate::mesh::{UsedVertices, boundary_triangles};
+use crate::mesh::{UsedVertices, boundary_faces, fitting};
 use nephrite_formats::{MeshFault, TetrahedronMesh, TriangleMesh};
 
 /// The surface around a volume: the faces that belong to one tetrahedron only, seen counter-clockwise from outside where the
-/// tetrahedra have positive volume. Vertices keep their order and their values; those inside are left out. O(n).
+/// tetrahedra have positive volume. Vertices keep their order and their values; those inside are left out.
+///
+/// Tetrahedra meet as they do in a build: vertices at one position are one point, whatever their values are, and a tetrahedron
+/// without four points or with the points of an earlier one does not count. O(n log n).
 ///
 /// # Errors
 ///
@@ -22,7 +25,10 @@ pub fn boundary(volume: &TetrahedronMesh) -> Result<TriangleMesh, MeshFault> {
 
 /// As [`boundary`], of a volume that contradicts itself nowhere.
 pub(crate) fn boundary_of_checked(volume: &TetrahedronMesh) -> TriangleMesh {
-    let mut triangles = boundary_triangles(&volume.tetrahedra, volume.positions.len());
+    let (over_points, vertices) = fitting(volume);
+    let faces = boundary_faces(&over_points, volume.positions.len());
+    let mut triangles: Vec<[u32; 3]> =
+        faces.map(|(tetrahedron, face)| face.map(|i| vertices[tetrahedron][i])).collect();
     let used = UsedVertices::new(volume.positions.len(), triangles.as_flattened());
     used.renumber(triangles.as_flattened_mut());
     TriangleMesh {

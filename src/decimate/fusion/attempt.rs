@@ -3,6 +3,7 @@
 use super::creases::Kind;
 use super::fusion_point::least_point;
 use super::metric::Quadric;
+use super::neighbourhood::Affected;
 use super::prey::Prey;
 use super::state::State;
 use crate::geometry::vector::{Vector, add, scale};
@@ -36,33 +37,55 @@ impl State {
         self.mesh.n_at(v) > MAX_STAR
     }
 
+    /// Whether two points may become one, as far as can be said without a look at their surroundings.
+    pub(super) fn may_meet(&self, v: u32, w: u32) -> bool {
+        let both = |is_meant: &dyn Fn(u32) -> bool| is_meant(v) && is_meant(w);
+        let is_locked = self.lock_boundary && both(&|point| self.creases.kind(point) != Kind::Interior);
+        let is_jump = both(&|point| self.jumps.is_at(point));
+        !is_locked && !is_jump
+    }
+
+    /// The prey of the tetrahedron in `slot`, whose points are `corners`.
+    pub(super) fn tetrahedron(&self, slot: u32, corners: [u32; 4]) -> Prey {
+        Prey::tetrahedron(corners, self.jumps.vertices(slot, corners))
+    }
+
+    /// The prey of the edge between two points.
+    pub(super) fn edge(&self, v: u32, w: u32) -> Prey {
+        Prey::edge([v, w], self.jumps.at_edge(&self.mesh, [v, w]))
+    }
+
     /// The quadric error of a fusion at the best point. A lower bound of what it costs where the boundary takes part.
     pub(super) fn cost(&self, prey: &Prey) -> f64 {
         let quadric = self.metric.of(prey.vertices());
         match self.fixed(prey) {
-            Some(v) => self.cost_at(prey, &quadric, v),
+            Some(point) => self.cost_at(prey, &quadric, point),
             None => {
-                let point = self.least_point(prey.vertices(), &quadric);
+                let point = self.least_point(prey.points(), &quadric);
                 quadric.at(self.metric.local(point))
             }
         }
     }
 
-    /// The only boundary vertex or a corner among the vertices of a prey: where the fusion point has to be.
+    /// The point of a prey at a jump, the only boundary point or a corner: where the fusion point has to be.
     fn fixed(&self, prey: &Prey) -> Option<u32> {
-        let kind = |v: &u32| self.creases.kind(*v);
-        let mut on_boundary = prey.vertices().iter().copied().filter(|v| kind(v) != Kind::Interior);
-        match (on_boundary.next(), on_boundary.next()) {
-            (only, None) => only,
-            _ => prey.vertices().iter().copied().find(|v| kind(v) >= Kind::Corner),
-        }
+        let kind = |point: &u32| self.creases.kind(*point);
+        let points = || prey.points().iter().copied();
+        let mut on_boundary = points().filter(|point| kind(point) != Kind::Interior);
+        points().find(|&point| self.jumps.is_at(point)).or_else(|| {
+            match (on_boundary.next(), on_boundary.next()) {
+                (only, None) => only,
+                _ => points().find(|point| kind(point) >= Kind::Corner),
+            }
+        })
     }
 
-    /// The quadric error at the place of a fused vertex, whose values stay as they are.
-    fn cost_at(&self, prey: &Prey, quadric: &Quadric, v: u32) -> f64 {
-        let p = self.metric.local(self.mesh.position(v));
-        let departure = self.metric.departure(prey.vertices(), p, |field| self.fields.scaled_value(v, field));
-        quadric.at(p) + departure
+    /// The quadric error at the place of a fused point, whose values stay as they are.
+    fn cost_at(&self, prey: &Prey, quadric: &Quadric, point: u32) -> f64 {
+        let p = self.metric.local(self.mesh.position(point));
+        let vertex = prey.vertex(point);
+        let value = |field| self.fields.scaled_value(vertex, field);
+        quadric.at(p) + self.metric.departure(prey.vertices(), p, value)
     }
 
     /// Where the quadric is least; the barycentre where it does not tell.
@@ -79,7 +102,7 @@ impl State {
     pub(super) fn try_fusion(&mut self, prey: &Prey) -> Option<Accepted> {
         let mut members = [0; 4];
         let mut n_members = 0;
-        for &v in prey.vertices() {
+        for &v in prey.points() {
             self.mesh.purge(v);
             if self.is_crowded(v) {
                 return None;
@@ -89,14 +112,22 @@ impl State {
                 n_members += 1;
             }
         }
-        match n_members {
-            0 => {
+        let mut at_jumps = prey.points().iter().copied().filter(|&point| self.jumps.is_at(point));
+        let (at_jump, another) = (at_jumps.next(), at_jumps.next());
+        let members = &members[..n_members];
+        let may_be_there = at_jump.is_none_or(|point| members.is_empty() || members.contains(&point));
+        let is_locked = self.lock_boundary && members.len() > 1;
+        if another.is_some() || !may_be_there || is_locked {
+            return None;
+        }
+        match (members, at_jump) {
+            ([], None) => {
                 let quadric = self.metric.of(prey.vertices());
-                let point = round(self.least_point(prey.vertices(), &quadric));
+                let point = round(self.least_point(prey.points(), &quadric));
                 self.try_at(prey, point)
             }
-            1 => self.try_at(prey, self.mesh.positions()[members[0] as usize]),
-            _ => self.try_boundary(prey, &members[..n_members]),
+            (&[point], _) | ([], Some(point)) => self.try_at(prey, self.mesh.positions()[point as usize]),
+            _ => self.try_boundary(prey, members, at_jump),
         }
     }
 
@@ -110,8 +141,8 @@ impl State {
         Some(Accepted { point, error, six_volumes_lost: 0.0, cost: 0.0 })
     }
 
-    /// A fusion that changes the boundary.
-    fn try_boundary(&mut self, prey: &Prey, members: &[u32]) -> Option<Accepted> {
+    /// A fusion that changes the boundary, at the place of a point at a jump if there is one.
+    fn try_boundary(&mut self, prey: &Prey, members: &[u32], at_jump: Option<u32>) -> Option<Accepted> {
         let anchor = self.creases.anchor(members)?;
         self.neighbourhood.gather(&self.mesh, prey, None);
         if self.leaves_nothing() || !self.patch.fill(&self.mesh, &self.neighbourhood, members) {
@@ -149,10 +180,10 @@ impl State {
                 best = Some(Accepted { point, error, six_volumes_lost, cost });
             }
         };
-        for &v in anchor.vertices() {
+        for &v in anchor.vertices().iter().filter(|&&v| at_jump.is_none_or(|point| point == v)) {
             consider(self.mesh.positions()[v as usize], self.cost_at(prey, &quadric, v));
         }
-        if anchor.is_free {
+        if anchor.is_free && at_jump.is_none() {
             let places = [self.least_point(members, &quadric), self.barycentre(members)];
             for place in places {
                 let point = round(self.patch.highest_inside(place));
@@ -164,13 +195,38 @@ impl State {
 
     /// Whether no face gets a third tetrahedron. Where tetrahedra fill space once none does; they need not in a file.
     fn stays_apart(&mut self, prey: &Prey) -> bool {
-        match prey.vertices().iter().find(|&&v| self.creases.kind(v) == Kind::Locked) {
+        if !self.is_on_one_side(prey) {
+            return false;
+        }
+        match prey.points().iter().find(|&&v| self.creases.kind(v) == Kind::Locked) {
             Some(&locked) => self.neighbourhood.joins_nothing(&self.mesh, locked),
             None => self.neighbourhood.is_ball(&self.mesh, prey),
         }
     }
 
-    /// Whether a whole component would vanish, as one without volume can. Components stay.
+    /// Whether the tetrahedra that go have the prey's own vertices, so that no value crosses a jump, and some are left that have
+    /// one.
+    fn is_on_one_side(&self, prey: &Prey) -> bool {
+        if !prey.points().iter().any(|&point| self.jumps.is_at(point)) {
+            return true;
+        }
+        let own = |affected: &Affected| {
+            let vertices =
+                self.mesh.get(affected.slot).map(|corners| self.jumps.vertices(affected.slot, corners));
+            vertices.is_some_and(|vertices| prey.vertices().contains(&vertices[affected.corner]))
+        };
+        if !self.neighbourhood.affected.iter().any(own) {
+            return false;
+        }
+        let slots = self.neighbourhood.deleted.iter();
+        let mut corners = slots.filter_map(|&slot| Some((slot, self.mesh.get(slot)?)));
+        corners.all(|(slot, corners)| {
+            let vertices = self.jumps.vertices(slot, corners);
+            corners.iter().zip(vertices).all(|(&point, v)| !prey.contains(point) || prey.vertex(point) == v)
+        })
+    }
+
+    /// Whether a whole component would go, as one can that has no volume. Components stay.
     fn leaves_nothing(&self) -> bool {
         self.neighbourhood.affected.is_empty()
     }

@@ -102,7 +102,7 @@ fn turn(state: &mut State, edges: &mut Edges, queue: &Queue, v: u32, candidate: 
             }
             w
         };
-        let prey = Prey::edge([v, w]);
+        let prey = state.edge(v, w);
         if let Some(accepted) = state.try_fusion(&prey) {
             let is_later =
                 comes_later(&mut candidate.cost, accepted.cost) && !queue.is_first(v, accepted.cost);
@@ -140,9 +140,9 @@ impl Edges {
         }
         self.neighbours.sort_unstable();
         self.neighbours.dedup();
-        self.neighbours.retain(|&w| !state.is_crowded(w));
+        self.neighbours.retain(|&w| !state.is_crowded(w) && state.may_meet(v, w));
         self.costs.clear();
-        self.costs.extend(self.neighbours.iter().map(|&w| (state.cost(&Prey::edge([v, w])), w)));
+        self.costs.extend(self.neighbours.iter().map(|&w| (state.cost(&state.edge(v, w)), w)));
         candidate.found = state.now();
         candidate.n_refused = 0;
         let &(cost, cheapest) = self.costs.iter().min_by(by_cost)?;

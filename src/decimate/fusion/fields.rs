@@ -1,7 +1,8 @@
 //! Fields carried along: their values at fusion points, and how far they have come from those of the input.
 
-use super::neighbourhood::Neighbourhood;
-use crate::geometry::barycentric::barycentric;
+use super::jumps::Jumps;
+use super::neighbourhood::{Affected, Neighbourhood};
+use crate::geometry::barycentric::{barycentric, interpolate, largest};
 use crate::geometry::vector::{Vector, cross, dot, length_sq, sub};
 use crate::mesh::Tetrahedra;
 use nephrite_formats::{Attribute, ScalarType};
@@ -128,12 +129,12 @@ impl Fields {
     /// input's. The rest is interpolated in the tetrahedron that holds `p`.
     pub(super) fn add_vertex(
         &mut self,
-        mesh: &Tetrahedra,
-        neighbourhood: &Neighbourhood,
+        surroundings: Surroundings<'_>,
         fused: &[u32],
         p: [f32; 3],
         best_value: impl Fn(usize) -> Option<f64>,
     ) {
+        let Surroundings { mesh, .. } = surroundings;
         let place = p.map(f64::from);
         let distance_sq = |v: u32| length_sq(sub(mesh.position(v), place));
         let nearest = fused.iter().copied().min_by(|&v, &w| distance_sq(v).total_cmp(&distance_sq(w)));
@@ -146,7 +147,7 @@ impl Fields {
         }
         let has_best = best_value(0).is_some();
         let is_interpolated = !self.interpolated.is_empty() || !has_best;
-        let found = if is_interpolated { tetrahedron_at(mesh, neighbourhood, place) } else { None };
+        let found = if is_interpolated { surroundings.tetrahedron_at(place) } else { None };
         if let Some((corners, weights)) = found {
             let unfitted = self.columns.iter().filter(|column| column.is_fitted && !has_best);
             for place in self.interpolated.iter().copied().chain(unfitted.map(|column| column.place)) {
@@ -168,27 +169,18 @@ impl Fields {
 
     /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their values are from those that the
     /// new tetrahedra have at their places. The affected tetrahedra have their new corner, `new` at `p`.
-    pub(super) fn deviate(
-        &mut self,
-        mesh: &Tetrahedra,
-        neighbourhood: &Neighbourhood,
-        fused: &[u32],
-        new: u32,
-    ) {
+    pub(super) fn deviate(&mut self, surroundings: Surroundings<'_>, fused: &[u32], new: u32) {
         let n_fields = self.len();
         if n_fields == 0 {
             return;
         }
         let start = self.deviations.len();
         self.deviations.resize(start + n_fields, 0.0);
-        let p = mesh.position(new);
+        let p = surroundings.mesh.position(new);
         for &v in fused {
-            let x = mesh.position(v);
-            let there = if x == p {
-                Some(([new; 4], [1.0, 0.0, 0.0, 0.0]))
-            } else {
-                cone_at(mesh, neighbourhood, p, x, new)
-            };
+            let x = surroundings.mesh.position(v);
+            let there =
+                if x == p { Some(([new; 4], [1.0, 0.0, 0.0, 0.0])) } else { surroundings.cone_at(p, x, new) };
             let Some((corners, weights)) = there else { continue };
             for field in 0..n_fields {
                 let before = self.deviations[v as usize * n_fields + field];
@@ -266,93 +258,83 @@ fn is_same(values: &[f64], n_values: usize, place: usize) -> bool {
     bits.next().is_none_or(|first| bits.all(|other| other == first))
 }
 
-/// The value inside a tetrahedron. Where values at corners are not finite, the nearest corner decides: a value that is not finite
-/// stays, and one that is counts with the other finite ones.
-fn interpolate(values: [f64; 4], weights: [f64; 4]) -> f64 {
-    if values.iter().all(|value| value.is_finite()) {
-        // About one corner: a field that is constant there stays so to the last bit.
-        let sum: f64 = (1..4).map(|i| weights[i] * (values[i] - values[0])).sum();
-        let value = sum + values[0];
-        // Differences of the largest numbers are none.
-        let mean = || values.iter().zip(weights).map(|(value, weight)| weight * value).sum::<f64>();
-        return if value.is_finite() { value } else { mean().clamp(-f64::MAX, f64::MAX) };
-    }
-    let nearest = largest(weights);
-    if !values[nearest].is_finite() {
-        return values[nearest];
-    }
-    let finite = || values.iter().zip(weights).filter(|(value, _)| value.is_finite());
-    let sum: f64 = finite().map(|(_, weight)| weight.max(0.0)).sum();
-    finite().map(|(value, weight)| weight.max(0.0) / sum * value).sum()
-}
-
-/// The corner with the largest weight, the first of several.
-fn largest(weights: [f64; 4]) -> usize {
-    (1..4).fold(0, |largest, i| if weights[i] > weights[largest] { i } else { largest })
-}
-
-/// The tetrahedron of those before a fusion that holds `p`, or that it is least outside of, with its coordinates there.
-fn tetrahedron_at(
-    mesh: &Tetrahedra,
-    neighbourhood: &Neighbourhood,
-    p: Vector,
-) -> Option<([u32; 4], [f64; 4])> {
-    let affected = neighbourhood.affected.iter().map(|affected| affected.slot);
-    let slots = neighbourhood.deleted.iter().copied().chain(affected);
-    let mut best = None;
-    let mut best_inside = f64::NEG_INFINITY;
-    for corners in slots.filter_map(|slot| mesh.get(slot)) {
-        let Some(weights) = barycentric(p, corners.map(|v| mesh.position(v))) else { continue };
-        let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
-        if inside > best_inside {
-            (best_inside, best) = (inside, Some((corners, weights)));
-        }
-        if inside >= 0.0 {
-            break;
-        }
-    }
-    best
-}
-
 /// How far outside a tetrahedron, in its coordinates, its field is taken to go on.
 const MAX_OUTSIDE: f64 = 0.1;
 
-/// The new tetrahedron that `x` lies in, or that it is least outside of, with its coordinates there, made positive where that is far.
-fn cone_at(
-    mesh: &Tetrahedra,
-    neighbourhood: &Neighbourhood,
-    p: Vector,
-    x: Vector,
-    new: u32,
-) -> Option<([u32; 4], [f64; 4])> {
-    let ray = sub(x, p);
-    let mut best = None;
-    let mut best_inside = f64::NEG_INFINITY;
-    for affected in &neighbourhood.affected {
-        let [a, b, c] = affected.base.map(|v| sub(mesh.position(v), p));
-        let across = cross(b, c);
-        let volume = dot(a, across);
-        let u = dot(ray, across) / volume;
-        // Most are refused by the first of three coordinates; a base seen edge-on gives no number.
-        if u.is_nan() || u <= best_inside {
-            continue;
+/// What is around a fusion.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings<'a> {
+    pub mesh: &'a Tetrahedra,
+    pub jumps: &'a Jumps,
+    pub around: &'a Neighbourhood,
+}
+
+impl Surroundings<'_> {
+    /// The vertices of the tetrahedron before a fusion that holds `p`, or that it is least outside of, with its coordinates there.
+    fn tetrahedron_at(&self, p: Vector) -> Option<([u32; 4], [f64; 4])> {
+        let affected = self.around.affected.iter().map(|affected| affected.slot);
+        let slots = self.around.deleted.iter().copied().chain(affected);
+        let mut best = None;
+        let mut best_inside = f64::NEG_INFINITY;
+        for slot in slots {
+            let Some(corners) = self.mesh.get(slot) else { continue };
+            let Some(weights) = barycentric(p, corners.map(|v| self.mesh.position(v))) else { continue };
+            let inside = weights.iter().copied().fold(f64::INFINITY, f64::min);
+            if inside > best_inside {
+                (best_inside, best) = (inside, Some((self.jumps.vertices(slot, corners), weights)));
+            }
+            if inside >= 0.0 {
+                break;
+            }
         }
-        let [v, w] = [dot(ray, cross(c, a)) / volume, dot(ray, cross(a, b)) / volume];
-        let inside = u.min(v).min(w).min(1.0 - u - v - w);
-        if inside > best_inside {
-            let [a, b, c] = affected.base;
-            (best_inside, best) = (inside, Some(([new, a, b, c], [1.0 - u - v - w, u, v, w])));
-        }
-        if inside >= 0.0 {
-            break;
-        }
+        best
     }
-    // A little outside, by rounding or where the boundary has moved inwards, the field goes on as it is.
-    let (corners, weights) = best?;
-    if best_inside > -MAX_OUTSIDE {
-        return Some((corners, weights));
+
+    /// The vertices of the new tetrahedron that `x` lies in, or that it is least outside of, with its coordinates there, made positive
+    /// where that is far. The fusion point at `p` has the vertex `new`; tetrahedra beyond a jump have another one there.
+    fn cone_at(&self, p: Vector, x: Vector, new: u32) -> Option<([u32; 4], [f64; 4])> {
+        let ray = sub(x, p);
+        let mut best = None;
+        let mut best_inside = f64::NEG_INFINITY;
+        for affected in &self.around.affected {
+            let [a, b, c] = affected.base.map(|v| sub(self.mesh.position(v), p));
+            let across = cross(b, c);
+            let volume = dot(a, across);
+            let u = dot(ray, across) / volume;
+            // Most are refused by the first of three coordinates; a base seen edge-on gives no number.
+            if u.is_nan() || u <= best_inside {
+                continue;
+            }
+            let [v, w] = [dot(ray, cross(c, a)) / volume, dot(ray, cross(a, b)) / volume];
+            let inside = u.min(v).min(w).min(1.0 - u - v - w);
+            if inside > best_inside
+                && let Some(corners) = self.vertices_of(affected, new)
+            {
+                (best_inside, best) = (inside, Some((corners, [1.0 - u - v - w, u, v, w])));
+                if inside >= 0.0 {
+                    break;
+                }
+            }
+        }
+        // A little outside, by rounding or where the boundary has moved inwards, the field goes on as it is.
+        let (corners, weights) = best?;
+        if best_inside > -MAX_OUTSIDE {
+            return Some((corners, weights));
+        }
+        let positive = weights.map(|weight: f64| weight.max(0.0));
+        let sum: f64 = positive.iter().sum();
+        Some((corners, positive.map(|weight| weight / sum)))
     }
-    let positive = weights.map(|weight: f64| weight.max(0.0));
-    let sum: f64 = positive.iter().sum();
-    Some((corners, positive.map(|weight| weight / sum)))
+
+    /// The vertex `new` and those of the base of an affected tetrahedron; `None` if it has another vertex at the fusion point.
+    fn vertices_of(&self, affected: &Affected, new: u32) -> Option<[u32; 4]> {
+        let [a, b, c] = affected.base;
+        if self.jumps.is_empty() {
+            return Some([new, a, b, c]);
+        }
+        let corners = self.mesh.get(affected.slot)?;
+        let vertices = self.jumps.vertices(affected.slot, corners);
+        let vertex = |point: u32| corners.iter().position(|&corner| corner == point).map(|at| vertices[at]);
+        (vertices[affected.corner] == new).then_some([new, vertex(a)?, vertex(b)?, vertex(c)?])
+    }
 }

@@ -14,6 +14,7 @@
 //! References: P. Chopra, J. Meyer: "Topology sensitive volume mesh simplification with planar quadric error metrics" (IASTED VIIP,
 //! 2003); H. Hoppe: "New quadric metric for simplifying meshes with appearance attributes" (IEEE Visualization, 1999).
 
+use super::jumps::Jumps;
 use crate::geometry::vector::{Vector, add_scaled, cross, dot, sub};
 use crate::mesh::{FACES, Tetrahedra};
 
@@ -69,7 +70,12 @@ pub(super) struct Metric {
 
 impl Metric {
     /// The metric of a mesh. `fields` has `n_fields` values per vertex, scaled to lengths. O(n).
-    pub(super) fn new(mesh: &Tetrahedra, centre: Vector, n_fields: usize, fields: &[f64]) -> Self {
+    pub(super) fn new(
+        mesh: &Tetrahedra,
+        jumps: &Jumps,
+        centre: Vector,
+        (n_fields, fields): (usize, &[f64]),
+    ) -> Self {
         let stride = if n_fields == 0 { 10 } else { 11 + 4 * n_fields };
         let numbers = vec![0.0; stride * mesh.n_vertices()];
         #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
@@ -78,7 +84,7 @@ impl Metric {
         let field_weight = squared_areas / mesh.n_alive().max(1) as f64;
         let mut metric = Self { stride, n_fields, numbers, rows, field_weight, centre };
         for (slot, corners) in mesh.iter() {
-            metric.add_tetrahedron(mesh, slot, corners, fields);
+            metric.add_tetrahedron(mesh, slot, jumps.vertices(slot, corners), fields);
         }
         metric
     }

@@ -20,6 +20,7 @@ mod creases;
 mod edges;
 mod fields;
 mod fusion_point;
+mod jumps;
 mod links;
 mod metric;
 mod neighbourhood;

@@ -63,7 +63,7 @@ impl Neighbourhood {
         self.affected.clear();
         self.deleted.clear();
         self.faces.clear();
-        for (i, &v) in prey.vertices().iter().enumerate() {
+        for (i, &v) in prey.points().iter().enumerate() {
             for &slot in mesh.slots_at(v) {
                 let Some(corners) = mesh.get(slot) else { continue };
                 let in_prey = prey.corners_in(corners);
@@ -73,12 +73,12 @@ impl Neighbourhood {
                         return false;
                     }
                     self.affected.push(affected);
-                } else if !prey.vertices()[..i].iter().any(|earlier| corners.contains(earlier)) {
+                } else if !prey.points()[..i].iter().any(|earlier| corners.contains(earlier)) {
                     self.deleted.push(slot);
                 }
                 let bits = mesh.boundary_bits(slot);
                 if bits != 0 {
-                    self.take_faces(corners, bits, &prey.vertices()[..=i]);
+                    self.take_faces(corners, bits, &prey.points()[..=i]);
                 }
             }
         }

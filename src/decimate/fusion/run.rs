@@ -3,10 +3,10 @@
 
 use super::edges::fuse_edges;
 use super::options::FusionOptions;
-use super::prey::Prey;
 use super::queue::Queue;
 use super::state::{FusionReport, State};
 use crate::decimate::{Decimated, Input, Stopped, Watch};
+use crate::mesh::RepairedVolume;
 use nephrite_formats::TetrahedronMesh;
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ const OBSERVED: usize = 256;
 ///
 /// [`Stopped`] when `watch` breaks.
 pub(crate) fn run(
-    input: Input<TetrahedronMesh>,
+    input: Input<RepairedVolume>,
     options: &FusionOptions,
     watch: Watch<'_>,
 ) -> Result<Decimated<TetrahedronMesh, 4, FusionReport>, Stopped> {
@@ -52,7 +52,7 @@ fn fuse_tetrahedra(state: &mut State, share: f64, watch: Watch<'_>) -> Result<()
         let corners = state.mesh.get(slot)?;
         // What is inverted goes first: a fusion leaves nothing so.
         let is_right = state.mesh.six_volumes(slot) > 0.0;
-        Some((slot, if is_right { state.cost(&Prey::tetrahedron(corners)) } else { 0.0 }))
+        Some((slot, if is_right { state.cost(&state.tetrahedron(slot, corners)) } else { 0.0 }))
     };
     let costs: Vec<(u32, f64)> = (0..n_slots).into_par_iter().filter_map(cost).collect();
     let limit = quantile(&costs, share);
@@ -62,7 +62,7 @@ fn fuse_tetrahedra(state: &mut State, share: f64, watch: Watch<'_>) -> Result<()
         && let Some(slot) = queue.pop()
     {
         let Some(corners) = state.mesh.get(slot) else { continue };
-        let prey = Prey::tetrahedron(corners);
+        let prey = state.tetrahedron(slot, corners);
         let candidate = &mut candidates[slot as usize];
         if std::mem::take(&mut candidate.is_stale) {
             let cost = state.cost(&prey).max(candidate.cost.into());
@@ -149,6 +149,7 @@ pub(super) fn observe(state: &State, watch: Watch<'_>) -> Result<(), Stopped> {
 mod tests {
     use super::*;
     use crate::generate::ball_volume;
+    use crate::mesh::repair_tetrahedra;
     use crate::volume::boundary_of_checked as boundary;
     use std::ops::ControlFlow;
 
@@ -165,8 +166,13 @@ mod tests {
         mesh
     }
 
-    fn fused(mesh: TetrahedronMesh) -> FusionReport {
-        let input = Input { mesh, max_error: None, cos_feature_angle: 0.5, lock_boundary: false };
+    fn fused(mesh: &TetrahedronMesh) -> FusionReport {
+        let input = Input {
+            mesh: repair_tetrahedra(mesh),
+            max_error: None,
+            cos_feature_angle: 0.5,
+            lock_boundary: false,
+        };
         run(input, &FusionOptions::default(), &|_, _| ControlFlow::Continue(())).unwrap().report
     }
 
@@ -174,7 +180,7 @@ mod tests {
     fn work_at_one_vertex_follows_its_tetrahedra() {
         let [few, many] = [20, 40].map(cone);
         assert_eq!([few.tetrahedra.len(), many.tetrahedra.len()], [4800, 19_200]);
-        let [few, many] = [few, many].map(fused);
+        let [few, many] = [&few, &many].map(fused);
         assert!(few.n_fusions > 400 && many.n_fusions > 1600, "{} and {}", few.n_fusions, many.n_fusions);
         let [few, many] = [few.n_read, many.n_read];
         assert!(

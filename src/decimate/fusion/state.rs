@@ -2,7 +2,8 @@
 
 use super::attempt::Accepted;
 use super::creases::Creases;
-use super::fields::Fields;
+use super::fields::{Fields, Surroundings};
+use super::jumps::Jumps;
 use super::metric::{Metric, Quadric};
 use super::neighbourhood::Neighbourhood;
 use super::options::FusionOptions;
@@ -13,7 +14,7 @@ use crate::decimate::{Decimated, Input};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::vector::{Vector, max};
 use crate::history::{Deviation, Recorder};
-use crate::mesh::Tetrahedra;
+use crate::mesh::{RepairedVolume, Tetrahedra};
 use nephrite_formats::TetrahedronMesh;
 
 /// Largest distance that rounding a point to `f32` and its coordinates' products may make, in parts of the extent.
@@ -29,6 +30,7 @@ pub(super) struct State {
     pub mesh: Tetrahedra,
     pub metric: Metric,
     pub creases: Creases,
+    pub jumps: Jumps,
     pub fields: Fields,
     pub recorder: Recorder<4>,
     /// Bound on the distance between the input's boundary and the faces whose newest corner a vertex is.
@@ -45,6 +47,8 @@ pub(super) struct State {
     /// How far a point may be outside by rounding alone.
     pub slack: f64,
     pub max_error: f64,
+    /// Whether no two points of the boundary may become one.
+    pub lock_boundary: bool,
     /// The error that fusions of tetrahedra may bring to the boundary; what is coarser is left to edges, which move less of it.
     pub fine_error: f64,
     quadric_distances: Vec<f64>,
@@ -77,21 +81,31 @@ pub struct FusionReport {
 
 impl State {
     /// The state at step 0. O(n).
-    pub(super) fn new(input: Input<TetrahedronMesh>, options: &FusionOptions) -> Self {
-        let Input { mesh, max_error, cos_feature_angle, .. } = input;
+    pub(super) fn new(input: Input<RepairedVolume>, options: &FusionOptions) -> Self {
+        let Input { mesh: RepairedVolume { mesh, points, .. }, max_error, cos_feature_angle, lock_boundary } =
+            input;
         let unit = Unit::new(Bounds::around_positions(&mesh.positions).diagonal());
         let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|&p| unit.point_to_unit(p)).collect();
         let bounds = Bounds::around_positions(&positions);
-        let tetrahedra = Tetrahedra::new(positions, mesh.tetrahedra.clone());
+        let (corners, vertices) = match points {
+            None => (mesh.tetrahedra.clone(), None),
+            Some(points) => {
+                let over_points = mesh.tetrahedra.iter().map(|t| t.map(|v| points[v as usize]));
+                (over_points.collect(), Some(mesh.tetrahedra.clone()))
+            }
+        };
+        let jumps = Jumps::new(&corners, vertices, positions.len());
+        let tetrahedra = Tetrahedra::new(positions, corners);
         let field_range = options.field_weight * bounds.diagonal();
         let fields = Fields::new(&mesh.attributes, mesh.positions.len(), field_range);
         let (n_scaled, scaled) = fields.scaled();
-        let metric = Metric::new(&tetrahedra, bounds.center(), n_scaled, &scaled);
+        let metric = Metric::new(&tetrahedra, &jumps, bounds.center(), (n_scaled, &scaled));
         let recorder = Recorder::new(mesh.tetrahedra.len(), mesh.positions.len(), mesh.rounding);
         let six_volumes: f64 = tetrahedra.iter().map(|(slot, _)| tetrahedra.six_volumes(slot)).sum();
         let six_volumes_to_lose = options.volume_loss * six_volumes.abs();
         Self {
             creases: Creases::new(&tetrahedra, cos_feature_angle),
+            jumps,
             recorder,
             touched: vec![0; mesh.positions.len()],
             errors: vec![unit.to_unit(mesh.rounding); mesh.positions.len()],
@@ -101,6 +115,7 @@ impl State {
                 * max(bounds.low.map(f64::abs), bounds.high.map(f64::abs)).into_iter().fold(0.0, f64::max),
             six_volumes_to_lose,
             six_volumes_left: six_volumes_to_lose,
+            lock_boundary,
             max_error: unit.to_unit(max_error.unwrap_or(f64::INFINITY)),
             fine_error: FINE_ERROR * bounds.diagonal(),
             mesh: tetrahedra,
@@ -126,12 +141,13 @@ impl State {
         self.recorder.step(self.unit.to_mesh(accepted.error));
         let local = self.metric.local(accepted.point.map(f64::from));
         let best = |field| self.metric.best_value(prey.vertices(), field, local);
-        self.fields.add_vertex(&self.mesh, &self.neighbourhood, prey.vertices(), accepted.point, best);
+        let surroundings = Surroundings { mesh: &self.mesh, jumps: &self.jumps, around: &self.neighbourhood };
+        self.fields.add_vertex(surroundings, prey.vertices(), accepted.point, best);
         self.n_fusions += 1;
         let now = self.now();
         for &slot in &self.neighbourhood.deleted {
             if let Some(corners) = self.mesh.get(slot) {
-                self.recorder.death(slot, corners);
+                self.recorder.death(slot, self.jumps.vertices(slot, corners));
                 self.mesh.remove(slot);
                 corners.iter().for_each(|&v| self.touched[v as usize] = now);
             }
@@ -141,8 +157,13 @@ impl State {
         for affected in &self.neighbourhood.affected {
             let slot = affected.slot;
             if let Some(corners) = self.mesh.get(slot) {
-                self.recorder.death(slot, corners);
-                self.recorder.birth(slot);
+                let vertices = self.jumps.vertices(slot, corners);
+                // Beyond a jump the vertex stays, at its place and with its values.
+                if prey.vertices().contains(&vertices[affected.corner]) {
+                    self.recorder.death(slot, vertices);
+                    self.recorder.birth(slot);
+                    self.jumps.set(slot, affected.corner, new);
+                }
                 let bits = self.neighbourhood.boundary_bits(&self.mesh, prey, affected);
                 self.mesh.move_corner(slot, affected.corner, bits);
                 affected.base.iter().for_each(|&v| self.touched[v as usize] = now);
@@ -151,9 +172,11 @@ impl State {
         }
         self.touched.push(now);
         self.errors.push(accepted.error);
-        self.fields.deviate(&self.mesh, &self.neighbourhood, prey.vertices(), new);
+        let surroundings = Surroundings { mesh: &self.mesh, jumps: &self.jumps, around: &self.neighbourhood };
+        self.fields.deviate(surroundings, prey.vertices(), new);
         self.metric.add_vertex(prey.vertices());
-        self.creases.add_vertex(prey.vertices());
+        self.creases.add_vertex(prey.points());
+        self.jumps.add_point(prey.points());
         self.six_volumes_left -= accepted.six_volumes_lost;
         self.record_deviations(&quadric, accepted.point.map(f64::from));
         new
@@ -172,7 +195,8 @@ impl State {
     /// The mesh and its history; `by_tetrahedra` are the fusions of tetrahedra and the tetrahedra
     /// they left.
     pub(super) fn finish(self, by_tetrahedra: [usize; 2]) -> Decimated<TetrahedronMesh, 4, FusionReport> {
-        let mut history = self.recorder.finish(&self.mesh.iter().collect::<Vec<_>>());
+        let alive = self.mesh.iter().map(|(slot, corners)| (slot, self.jumps.vertices(slot, corners)));
+        let mut history = self.recorder.finish(&alive.collect::<Vec<_>>());
         let names = std::iter::once("planar quadric").chain(self.fields.names()).map(str::to_owned);
         let values = std::iter::once(self.quadric_distances).chain(self.field_deviations);
         history.deviations = names.zip(values).map(|(name, values)| Deviation { name, values }).collect();

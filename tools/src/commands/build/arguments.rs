@@ -58,8 +58,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "DEG", value_parser = angle)]
     pub(super) feature_angle: Option<f64>,
 
-    /// Keep the vertices on the boundary of a surface at every level, so that surfaces that meet
-    /// there fit whatever their levels
+    /// Keep the vertices on the boundary of a surface or a volume at every level, so that parts that
+    /// meet there fit whatever their levels
     #[arg(long)]
     pub(super) lock_boundary: bool,
 
@@ -246,6 +246,7 @@ impl Arguments {
         VolumeOptions {
             max_error: self.max_error.map(|length| length.in_mesh_units(bounding_diagonal)),
             feature_angle_degrees: self.feature_angle.unwrap_or(usual.feature_angle_degrees),
+            lock_boundary: self.lock_boundary,
             fusion: FusionOptions {
                 field_weight: field_weight.unwrap_or(usual.fusion.field_weight),
                 tetrahedron_share: tetrahedron_share.unwrap_or(usual.fusion.tetrahedron_share),

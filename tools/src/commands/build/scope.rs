@@ -73,7 +73,7 @@ impl Needs {
 }
 
 /// Options that have a meaning for some builds only: as typed, whether given, and what they need.
-fn scoped(arguments: &Arguments) -> [(&'static str, bool, Needs); 15] {
+fn scoped(arguments: &Arguments) -> [(&'static str, bool, Needs); 14] {
     let Arguments { method, bound, jade, fusion, progressive, .. } = arguments;
     let method_needs = if *method == Some(MethodName::Fusion) { Needs::Volume } else { Needs::Surface };
     let bound_needs = match bound {
@@ -87,7 +87,6 @@ fn scoped(arguments: &Arguments) -> [(&'static str, bool, Needs); 15] {
     [
         ("--method", method.is_some(), method_needs),
         ("--bound", bound.is_some(), bound_needs),
-        ("--lock-boundary", arguments.lock_boundary, Needs::Surface),
         ("--placement", jade.placement.is_some(), placement_needs),
         ("--jade-k", jade.k.is_some(), Needs::Jade),
         ("--jade-c1", jade.c1.is_some(), Needs::Jade),

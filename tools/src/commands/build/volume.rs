@@ -96,7 +96,25 @@ impl Outcome<'_> {
             "reading": self.read,
             "notes": self.read.notes(),
             "repairs": build.repairs(),
+            "dropped_distance": build.dropped_distance(),
+            "inner_wall_area": build.inner_wall_area(),
         })
+    }
+
+    /// What the repair did, how far what it dropped lies from the rest, and what walls are inside.
+    fn repaired(&self) -> String {
+        let mut text = figures::tally(&json!(self.build.repairs()));
+        if self.build.dropped_distance() > 0.0 {
+            let distance = figures::error(self.build.dropped_distance(), self.bounding_diagonal);
+            text += &format!(
+                "; what was dropped lies up to {distance} from the rest, which every level's error counts"
+            );
+        }
+        if self.build.inner_wall_area() > 0.0 {
+            let area = figures::significant(self.build.inner_wall_area());
+            text += &format!("; hanging nodes make an inner wall of area {area}");
+        }
+        text
     }
 
     fn text(&self, job: &Job<'_>) -> String {
@@ -111,7 +129,7 @@ impl Outcome<'_> {
         let list = figures::list(&[
             ("volume", format!("{n_tetrahedra} tetrahedra, {n_vertices} vertices")),
             ("read", figures::reading(self.read)),
-            ("repaired", figures::tally(&json!(build.repairs()))),
+            ("repaired", self.repaired()),
             (
                 "fusions",
                 format!(
