@@ -1,7 +1,7 @@
-//! The promise: no error that a history states as a bound is exceeded, whatever the mesh and the options. Random adversarial meshes are
-//! built in every way, and the distances between input and steps are searched for a point that is too far away. The search is written
-//! here alone and shares nothing with the builder. The long attack is `cargo test --release --test bounds_survive_an_attack --
-//! --ignored`.
+//! Promise: no error that a history states as a bound is exceeded, whatever the mesh and the
+//! options. Random adversarial meshes are built in every way, and a search looks for a point of the
+//! input or of a step that is too far from the other. The search shares no code with the builder.
+//! `tests/long` runs the long attack.
 
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small numbers")]
@@ -42,7 +42,8 @@ impl Random {
 }
 
 mod distance {
-    //! Distances from a definition: the nearest point of a triangle is on its plane inside it, or on one of its sides.
+    //! Distances from a definition: the nearest point of a triangle is on its plane inside it, or
+    //! on one of its sides.
 
     use super::Point;
 
@@ -90,8 +91,9 @@ mod distance {
         surface.iter().map(|&triangle| to_triangle_sq(p, triangle)).fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// A point of `from` that is farther than `limit` from `to`, if one is found: triangles are halved until no point of a part can be
-    /// too far, since distances differ by no more than their points; or until `effort` is used up.
+    /// A point of `from` that is farther than `limit` from `to`, if one is found: triangles are
+    /// halved until no point of a part can be too far, since distances differ by no more than their
+    /// points; or until `effort` is used up.
     pub(super) fn beyond(
         from: &[[Point; 3]],
         to: &[[Point; 3]],
@@ -130,7 +132,8 @@ fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> TriangleMesh {
     TriangleMesh { positions, triangles, ..TriangleMesh::default() }
 }
 
-/// A grid whose heights are a few steps up and down, and whose vertices may change places sideways: folds, overlaps, flat parts.
+/// A grid whose heights are a few steps up and down, and whose vertices may change places sideways:
+/// folds, overlaps, flat parts.
 fn folded_grid(random: &mut Random, columns: usize, rows: usize) -> TriangleMesh {
     let (steps, aside, height) =
         (random.pick(&[1.0, 4.0, 1e6]), random.pick(&[0.0, 0.3, 1.2]), random.pick(&[0.2, 1.0, 3.0]));
@@ -169,7 +172,8 @@ fn confetti(random: &mut Random) -> TriangleMesh {
     mesh(positions, triangles)
 }
 
-/// Fans that share a vertex, or an edge, with radii and heights of all sizes: cones, bow ties, pages, slivers.
+/// Fans that share a vertex, or an edge, with radii and heights of all sizes: cones, bow ties,
+/// pages, slivers.
 fn crooked_fans(random: &mut Random) -> TriangleMesh {
     let mut positions = vec![[0.0; 3], [0.0, 0.0, 1.0]];
     let mut triangles = vec![];
@@ -231,7 +235,8 @@ fn random_mesh(random: &mut Random) -> TriangleMesh {
     mesh
 }
 
-/// Options whose errors are bounds: those of the certified proof, and all that the progressive decimator states.
+/// Options whose errors are bounds: those of the certified proof, and all that the progressive
+/// decimator states.
 fn random_options(random: &mut Random, size: f64) -> BuildOptions {
     let jade = |placement| Decimator::from(JadeOptions::certified(placement));
     let progressive = |bound, pre_split| {

@@ -1,5 +1,6 @@
-//! The promise: a level that has lost a part says how far that part is from the rest, one that has lost everything says that it has no
-//! bound, rounding of text counts from level 0 on, percentages mean one diagonal, and no budget is missed by much.
+//! Promise: a level that has lost a part says how far that part is from the rest, one that has
+//! lost everything says that it has no bound, rounding of text counts from level 0 on, percentages
+//! mean one diagonal, and no budget is missed by much.
 
 #![allow(
     clippy::unwrap_used,

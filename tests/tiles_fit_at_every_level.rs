@@ -1,5 +1,6 @@
-//! The promise: two meshes that share a border fit at any levels, if both were built with a locked boundary: every vertex of
-//! the boundary is at every step where it was, and the boundary edges stay.
+//! Promise: two meshes that share a border fit at any levels, if both were built with a locked
+//! boundary: every vertex of the boundary is at every step where it was, and the boundary edges
+//! stay.
 
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test")]
 

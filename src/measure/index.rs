@@ -30,8 +30,9 @@ impl TriangleIndex {
         self.ids.len()
     }
 
-    /// The id for which `distance_sq` is least, asked for those that may be nearest to the corners by where they were; nothing if it is
-    /// infinite for all. Exact while the triangles are where they were, else a good guess.
+    /// The id for which `distance_sq` is least, asked for those that may be nearest to the corners
+    /// by where they were; nothing if it is infinite for all. Exact while the triangles are where
+    /// they were, else a good guess.
     pub(crate) fn nearest(
         &self,
         corners: &[Vector],

@@ -16,9 +16,11 @@ pub struct Replayed<'a> {
 }
 
 impl Lod {
-    /// The largest mesh with at most `n_triangles` that the file's operations lead to, whether or not it is a level. Most operations
-    /// make two triangles, so the count is met or missed by one; a few make more. `None` if the file has no operations, and for
-    /// counts that no level falls short of or exceeds: [`at_count`](Self::at_count) answers those. Cost: all operations are read.
+    /// The largest mesh with at most `n_triangles` that the file's operations lead to, whether or
+    /// not it is a level. Most operations make two triangles, so the count is met or missed by one;
+    /// a few make more. `None` if the file has no operations, and for counts that no level falls
+    /// short of or exceeds: [`at_count`](Self::at_count) answers those. Cost: all operations are
+    /// read.
     ///
     /// # Errors
     ///
