@@ -24,7 +24,7 @@ pub struct Tetrahedra {
     /// Bit `i`: nothing is on the other side of the face opposite corner `i`.
     boundary: Vec<u8>,
     misfits: Vec<[u32; 3]>,
-    stars: Vec<Star>,
+    stars: Vec<StarRange>,
     pool: Vec<u32>,
     n_alive: usize,
     /// Entries of stars handed out: the work of a test.
@@ -33,7 +33,7 @@ pub struct Tetrahedra {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Star {
+struct StarRange {
     start: u32,
     len: u32,
     /// Dead slots among them.
@@ -46,7 +46,7 @@ impl Tetrahedra {
     pub fn new(positions: Vec<[f32; 3]>, corners: Vec<[u32; 4]>) -> Self {
         let at_corners = (0..).zip(&corners).flat_map(|(slot, t)| t.map(|v| (v, slot)));
         let (starts, pool) = Groups::new(positions.len(), at_corners).into_parts();
-        let star = |ends: &[u32]| Star { start: ends[0], len: ends[1] - ends[0], n_dead: 0 };
+        let star = |ends: &[u32]| StarRange { start: ends[0], len: ends[1] - ends[0], n_dead: 0 };
         let stars = starts.windows(2).map(star).collect();
         let Sides { boundary, misfits } = Sides::new(&corners, positions.len());
         let n_alive = corners.len();
@@ -107,7 +107,7 @@ impl Tetrahedra {
     /// Slots that hold or held a tetrahedron at `v`: all of its star, and dead ones.
     #[inline]
     pub fn slots_at(&self, v: u32) -> &[u32] {
-        let Star { start, len, .. } = self.stars[v as usize];
+        let StarRange { start, len, .. } = self.stars[v as usize];
         #[cfg(test)]
         self.n_read.fetch_add(len.into(), std::sync::atomic::Ordering::Relaxed);
         &self.pool[start as usize..][..len as usize]
@@ -116,7 +116,7 @@ impl Tetrahedra {
     /// Tetrahedra in the star of `v`, which is alive. O(1).
     #[inline(always)]
     pub fn n_at(&self, v: u32) -> u32 {
-        let Star { len, n_dead, .. } = self.stars[v as usize];
+        let StarRange { len, n_dead, .. } = self.stars[v as usize];
         len - n_dead
     }
 
@@ -150,7 +150,7 @@ impl Tetrahedra {
     pub fn add_vertex(&mut self, position: [f32; 3]) {
         self.positions.push(position);
         #[expect(clippy::cast_possible_truncation, reason = "a star's entries are counted in u32")]
-        self.stars.push(Star { start: self.pool.len() as u32, ..Star::default() });
+        self.stars.push(StarRange { start: self.pool.len() as u32, ..StarRange::default() });
     }
 
     /// The tetrahedron in `slot` dies.
@@ -246,8 +246,8 @@ pub(crate) fn boundary_faces(
     })
 }
 
-/// The faces between tetrahedra that do not have the same vertices there. `corners` has the points of each tetrahedron, `vertices`
-/// the vertices at them. O(n).
+/// The faces between tetrahedra that do not have the same vertices there. `corners` has the points
+/// of each tetrahedron, `vertices` the vertices at them. O(n).
 pub(crate) fn jump_faces(corners: &[[u32; 4]], vertices: &[[u32; 4]], n_points: usize) -> Vec<[u32; 3]> {
     let vertex = |slot: u32, point: u32| {
         let at = corners[slot as usize].iter().position(|&corner| corner == point);

@@ -1,34 +1,26 @@
 //! Whether a fusion holds, and where its fusion point may be.
 
-use super::creases::Kind;
+use super::creases::BoundaryKind;
 use super::fusion_point::least_point;
 use super::metric::Quadric;
 use super::neighbourhood::Affected;
 use super::prey::Prey;
-use super::state::State;
+use super::state::{Accepted, State};
 use crate::geometry::vector::{Vector, add, scale};
 
-/// A fusion that holds.
-pub(super) struct Accepted {
-    pub point: [f32; 3],
-    /// Bound on the distance between the boundary faces that come and the boundary of the input.
-    pub error: f64,
-    pub six_volumes_lost: f64,
-    /// What the fusion costs with the boundary's error counted in.
-    pub cost: f64,
-}
-
-/// How much the squared error of the boundary counts beside the squared distances to planes. That error is a bound and adds up,
-/// which the other terms of a cost are not. Fields add up in a cost: with each the boundary counts once more, so that it does not
-/// lose against many.
+/// How much the squared error of the boundary counts beside the squared distances to planes. That
+/// error is a bound and adds up, which the other terms of a cost are not. Fields add up in a cost:
+/// with each the boundary counts once more, so that it does not lose against many.
 const ERROR_WEIGHT: f64 = 1.25e3;
 
-/// Cost factor of a fusion that would use up the whole remaining volume budget, so that the budget is left to fusions that need little of it.
+/// Cost factor of a fusion that would use up the whole remaining volume budget, so that the budget
+/// is left to fusions that need little of it.
 const SCARCITY: f64 = 100.0;
 
-/// Largest star of a vertex that is fused. A fusion looks at every tetrahedron around its vertices, and gives all of those around a
-/// fusion point a new lifetime: at a vertex of `n` tetrahedra that would be `n` each time, `n^2` in all. Such a vertex stays until
-/// fusions around it have left it fewer. On surfaces of scanners and grids of simulations no star had more than 170.
+/// Largest star of a vertex that is fused. A fusion looks at every tetrahedron around its vertices,
+/// and gives all of those around a fusion point a new lifetime: at a vertex of `n` tetrahedra that
+/// would be `n` each time, `n^2` in all. Such a vertex stays until fusions around it have left it
+/// fewer. On surfaces of scanners and grids of simulations no star had more than 170.
 const MAX_STAR: u32 = 512;
 
 impl State {
@@ -37,10 +29,12 @@ impl State {
         self.mesh.n_at(v) > MAX_STAR
     }
 
-    /// Whether two points may become one, as far as can be said without a look at their surroundings.
+    /// Whether two points may become one, as far as can be said without a look at their
+    /// surroundings.
     pub(super) fn may_meet(&self, v: u32, w: u32) -> bool {
         let both = |is_meant: &dyn Fn(u32) -> bool| is_meant(v) && is_meant(w);
-        let is_locked = self.lock_boundary && both(&|point| self.creases.kind(point) != Kind::Interior);
+        let is_locked =
+            self.lock_boundary && both(&|point| self.creases.kind(point) != BoundaryKind::Interior);
         let is_jump = both(&|point| self.jumps.is_at(point));
         !is_locked && !is_jump
     }
@@ -55,7 +49,8 @@ impl State {
         Prey::edge([v, w], self.jumps.at_edge(&self.mesh, [v, w]))
     }
 
-    /// The quadric error of a fusion at the best point. A lower bound of what it costs where the boundary takes part.
+    /// The quadric error of a fusion at the best point. A lower bound of what it costs where the
+    /// boundary takes part.
     pub(super) fn cost(&self, prey: &Prey) -> f64 {
         let quadric = self.metric.of(prey.vertices());
         match self.fixed(prey) {
@@ -67,15 +62,16 @@ impl State {
         }
     }
 
-    /// The point of a prey at a jump, the only boundary point or a corner: where the fusion point has to be.
+    /// The point of a prey at a jump, the only boundary point or a corner: where the fusion point
+    /// has to be.
     fn fixed(&self, prey: &Prey) -> Option<u32> {
         let kind = |point: &u32| self.creases.kind(*point);
         let points = || prey.points().iter().copied();
-        let mut on_boundary = points().filter(|point| kind(point) != Kind::Interior);
+        let mut on_boundary = points().filter(|point| kind(point) != BoundaryKind::Interior);
         points().find(|&point| self.jumps.is_at(point)).or_else(|| {
             match (on_boundary.next(), on_boundary.next()) {
                 (only, None) => only,
-                _ => points().find(|point| kind(point) >= Kind::Corner),
+                _ => points().find(|point| kind(point) >= BoundaryKind::Corner),
             }
         })
     }
@@ -107,7 +103,7 @@ impl State {
             if self.is_crowded(v) {
                 return None;
             }
-            if self.creases.kind(v) != Kind::Interior {
+            if self.creases.kind(v) != BoundaryKind::Interior {
                 members[n_members] = v;
                 n_members += 1;
             }
@@ -166,7 +162,8 @@ impl State {
             let p = point.map(f64::from);
             let Some(after) = self.neighbourhood.six_volumes(p) else { return };
             let six_volumes_lost = six_volumes - after;
-            // Far from the origin rounding can make the mesh larger: by no more than it may become smaller.
+            // Far from the origin rounding can make the mesh larger: by no more than it may become
+            // smaller.
             let left = self.six_volumes_left - six_volumes_lost;
             if left < 0.0 || left > 2.0 * self.six_volumes_to_lose {
                 return;
@@ -193,19 +190,20 @@ impl State {
         best.filter(|_| self.stays_apart(prey))
     }
 
-    /// Whether no face gets a third tetrahedron. Where tetrahedra fill space once none does; they need not in a file.
+    /// Whether no face gets a third tetrahedron. Where tetrahedra fill space once none does; they
+    /// need not in a file.
     fn stays_apart(&mut self, prey: &Prey) -> bool {
         if !self.is_on_one_side(prey) {
             return false;
         }
-        match prey.points().iter().find(|&&v| self.creases.kind(v) == Kind::Locked) {
+        match prey.points().iter().find(|&&v| self.creases.kind(v) == BoundaryKind::Locked) {
             Some(&locked) => self.neighbourhood.joins_nothing(&self.mesh, locked),
             None => self.neighbourhood.is_ball(&self.mesh, prey),
         }
     }
 
-    /// Whether the tetrahedra that go have the prey's own vertices, so that no value crosses a jump, and some are left that have
-    /// one.
+    /// Whether the tetrahedra that go have the prey's own vertices, so that no value crosses a
+    /// jump, and some are left that have one.
     fn is_on_one_side(&self, prey: &Prey) -> bool {
         if !prey.points().iter().any(|&point| self.jumps.is_at(point)) {
             return true;
@@ -231,8 +229,8 @@ impl State {
         self.neighbourhood.affected.is_empty()
     }
 
-    /// Bound on the distance between the input's boundary and the faces that a fusion would touch. Vertices are numbered as they
-    /// are born, so that a face is as old as its newest corner.
+    /// Bound on the distance between the input's boundary and the faces that a fusion would touch.
+    /// Vertices are numbered as they are born, so that a face is as old as its newest corner.
     fn error_before(&self) -> f64 {
         let newest = |face: &[u32; 3]| face.iter().copied().max().unwrap_or(0);
         self.neighbourhood.faces.iter().map(|face| self.errors[newest(face) as usize]).fold(0.0, f64::max)

@@ -12,7 +12,7 @@ use crate::mesh::Tetrahedra;
 
 /// What a vertex is to the boundary, from free to fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Kind {
+pub(super) enum BoundaryKind {
     /// Not on the boundary.
     Interior,
     /// On the boundary, without a feature edge.
@@ -29,7 +29,7 @@ pub(super) enum Kind {
 /// The kinds of all vertices, and the creases.
 #[derive(Clone, Debug)]
 pub(super) struct Creases {
-    kinds: Vec<Kind>,
+    kinds: Vec<BoundaryKind>,
     /// Neighbours of each crease vertex along its crease.
     along: Vec<[u32; 2]>,
     /// Vertices that have become one, which is the root.
@@ -48,7 +48,7 @@ impl Creases {
             }
         }
         let mut creases = Self {
-            kinds: vec![Kind::Interior; n_vertices],
+            kinds: vec![BoundaryKind::Interior; n_vertices],
             along: vec![[NO_INDEX; 2]; n_vertices],
             merged: DisjointSets::new(n_vertices),
         };
@@ -56,7 +56,7 @@ impl Creases {
             creases.classify(mesh, v, rim, cos_feature_angle);
         }
         for v in irregular(mesh, &rims) {
-            creases.kinds[v as usize] = Kind::Locked;
+            creases.kinds[v as usize] = BoundaryKind::Locked;
             creases.along[v as usize] = [NO_INDEX; 2];
         }
         creases
@@ -65,7 +65,7 @@ impl Creases {
     /// Sets the kind of a boundary vertex with the given edges opposite to it.
     fn classify(&mut self, mesh: &Tetrahedra, v: u32, rim: &[[u32; 2]], cos_feature_angle: f64) {
         let Some(ring) = ring(rim) else {
-            self.kinds[v as usize] = Kind::Locked;
+            self.kinds[v as usize] = BoundaryKind::Locked;
             return;
         };
         let apex = mesh.position(v);
@@ -79,17 +79,17 @@ impl Creases {
         };
         let features: Vec<u32> = (0..ring.len()).filter(|&i| is_feature(i)).map(|i| ring[i]).collect();
         self.kinds[v as usize] = match *features {
-            [] => Kind::Smooth,
+            [] => BoundaryKind::Smooth,
             [a, b] if goes_on(side(a), side(b), cos_feature_angle) => {
                 self.along[v as usize] = [a, b];
-                Kind::Crease
+                BoundaryKind::Crease
             }
-            _ => Kind::Corner,
+            _ => BoundaryKind::Corner,
         };
     }
 
     #[inline(always)]
-    pub(super) fn kind(&self, v: u32) -> Kind {
+    pub(super) fn kind(&self, v: u32) -> BoundaryKind {
         self.kinds[v as usize]
     }
 
@@ -100,11 +100,11 @@ impl Creases {
         let mut corner = None;
         for &v in members {
             match self.kind(v) {
-                Kind::Locked => return None,
-                Kind::Corner if corner.is_some() => return None,
-                Kind::Corner => corner = Some(v),
-                Kind::Interior | Kind::Smooth => continue,
-                Kind::Crease => {}
+                BoundaryKind::Locked => return None,
+                BoundaryKind::Corner if corner.is_some() => return None,
+                BoundaryKind::Corner => corner = Some(v),
+                BoundaryKind::Interior | BoundaryKind::Smooth => continue,
+                BoundaryKind::Crease => {}
             }
             sharp[n_sharp] = v;
             n_sharp += 1;
@@ -147,7 +147,7 @@ impl Creases {
                 let next = self.merged_into(next);
                 if let Some(w) = sharp.iter().find(|&&w| w == next) {
                     // A link between two crease vertices is seen from both of them.
-                    n_links += if self.kinds[*w as usize] == Kind::Crease { 1 } else { 2 };
+                    n_links += if self.kinds[*w as usize] == BoundaryKind::Crease { 1 } else { 2 };
                 } else if ends[..n_ends].contains(&next) {
                     return false;
                 } else {
@@ -161,9 +161,9 @@ impl Creases {
 
     /// Adds a vertex that replaces others.
     pub(super) fn add_vertex(&mut self, replaced: &[u32]) {
-        let kind = replaced.iter().map(|&v| self.kind(v)).max().unwrap_or(Kind::Interior);
+        let kind = replaced.iter().map(|&v| self.kind(v)).max().unwrap_or(BoundaryKind::Interior);
         let mut along = [NO_INDEX; 2];
-        if kind == Kind::Crease {
+        if kind == BoundaryKind::Crease {
             let mut n_along = 0;
             for &v in replaced {
                 for next in self.crease_neighbours(v) {
@@ -182,7 +182,7 @@ impl Creases {
 
     /// Neighbours of a crease vertex along its crease; empty for any other vertex.
     fn crease_neighbours(&self, v: u32) -> impl Iterator<Item = u32> + use<> {
-        let is_crease = self.kinds[v as usize] == Kind::Crease;
+        let is_crease = self.kinds[v as usize] == BoundaryKind::Crease;
         self.along[v as usize].into_iter().filter(move |_| is_crease)
     }
 

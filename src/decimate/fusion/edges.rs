@@ -1,19 +1,18 @@
 //! Fusions of edges, in the order of the least cost of any edge at a vertex.
 //!
-//! An edge belongs to the newer of its vertices, so that each is looked at once. Where a vertex is fused its edges go, and those that
-//! come belong to the fusion point: an older vertex only loses edges, and what it was queued with stays a lower bound.
+//! An edge belongs to the newer of its vertices, so that each is looked at once. Where a vertex is
+//! fused its edges go, and those that come belong to the fusion point: an older vertex only loses
+//! edges, and what it was queued with stays a lower bound.
 
-use super::attempt::Accepted;
 use super::prey::Prey;
-use super::queue::Queue;
-use super::run::{comes_later, observe};
-use super::state::State;
+use super::queue::{CostQueue, raise_bound};
+use super::state::{Accepted, State};
 use crate::decimate::{Stopped, Watch};
 use rayon::prelude::*;
 
 /// What is known of a vertex.
 #[derive(Clone, Copy, Default)]
-struct Candidate {
+struct EdgeCandidate {
     /// What it costs with the boundary's error counted in, as far as known: a lower bound.
     cost: f32,
     /// The other end of its cheapest edge.
@@ -29,22 +28,22 @@ const TRIED_EDGES: u8 = 4;
 
 /// Fuses edges until none can be fused.
 pub(super) fn fuse_edges(state: &mut State, watch: Watch<'_>) -> Result<(), Stopped> {
-    let mut candidates = vec![Candidate::default(); state.mesh.n_vertices()];
+    let mut candidates = vec![EdgeCandidate::default(); state.mesh.n_vertices()];
     let mut edges = Edges::default();
     let mut queue = find_all(state, &mut candidates, |_, _| true);
     loop {
         let before = state.n_fusions;
         while let Some(v) = queue.pop() {
             match turn(state, &mut edges, &queue, v, &mut candidates[v as usize]) {
-                Turn::None => {}
-                Turn::Later(cost) => queue.push(v, cost),
-                Turn::Now(prey, accepted) => {
+                EdgeTurn::None => {}
+                EdgeTurn::Later(cost) => queue.push(v, cost),
+                EdgeTurn::Now(prey, accepted) => {
                     let new = state.fuse(&prey, &accepted, |_| {});
-                    candidates.push(Candidate::default());
+                    candidates.push(EdgeCandidate::default());
                     if let Some(cost) = edges.find(state, new, &mut candidates[new as usize]) {
                         queue.push(new, cost);
                     }
-                    observe(state, watch)?;
+                    state.tell(watch)?;
                 }
             }
         }
@@ -55,9 +54,14 @@ pub(super) fn fuse_edges(state: &mut State, watch: Watch<'_>) -> Result<(), Stop
     }
 }
 
-/// A queue of all vertices that are to be looked at, by what is known of them and the fusion that last changed their star.
-fn find_all(state: &State, candidates: &mut [Candidate], is_meant: fn(&Candidate, u32) -> bool) -> Queue {
-    let find = |edges: &mut Edges, (v, candidate): (usize, &mut Candidate)| {
+/// A queue of all vertices that are to be looked at, by what is known of them and the fusion that
+/// last changed their star.
+fn find_all(
+    state: &State,
+    candidates: &mut [EdgeCandidate],
+    is_meant: fn(&EdgeCandidate, u32) -> bool,
+) -> CostQueue {
+    let find = |edges: &mut Edges, (v, candidate): (usize, &mut EdgeCandidate)| {
         if !is_meant(candidate, state.touched[v]) {
             return None;
         }
@@ -68,11 +72,11 @@ fn find_all(state: &State, candidates: &mut [Candidate], is_meant: fn(&Candidate
     };
     let costs: Vec<Option<(u32, f64)>> =
         candidates.par_iter_mut().enumerate().map_init(Edges::default, find).collect();
-    Queue::new(costs.into_iter().flatten())
+    CostQueue::new(costs.into_iter().flatten())
 }
 
 /// What is decided for the vertex that is first in the queue.
-enum Turn {
+enum EdgeTurn {
     /// No edge of it can be fused.
     None,
     /// It costs more than what is next in the queue.
@@ -80,9 +84,15 @@ enum Turn {
     Now(Prey, Accepted),
 }
 
-/// Tries the edges of a vertex in the order of their costs, each only when it is first: where a cheap edge is refused, the next may
-/// cost a thousand times as much.
-fn turn(state: &mut State, edges: &mut Edges, queue: &Queue, v: u32, candidate: &mut Candidate) -> Turn {
+/// Tries the edges of a vertex in the order of their costs, each only when it is first: where a
+/// cheap edge is refused, the next may cost a thousand times as much.
+fn turn(
+    state: &mut State,
+    edges: &mut Edges,
+    queue: &CostQueue,
+    v: u32,
+    candidate: &mut EdgeCandidate,
+) -> EdgeTurn {
     let is_changed = state.touched[v as usize] > candidate.found;
     // If the star has not changed, the cheapest edge is known and comes first.
     let mut is_known = !is_changed && candidate.n_refused == 0;
@@ -98,22 +108,22 @@ fn turn(state: &mut State, edges: &mut Edges, queue: &Queue, v: u32, candidate: 
             let Some((cost, w)) = edges.nth(candidate.n_refused) else { break };
             let cost = cost.max(candidate.cost.into());
             if !queue.is_first(v, cost) {
-                return Turn::Later(cost);
+                return EdgeTurn::Later(cost);
             }
             w
         };
         let prey = state.edge(v, w);
         if let Some(accepted) = state.try_fusion(&prey) {
             let is_later =
-                comes_later(&mut candidate.cost, accepted.cost) && !queue.is_first(v, accepted.cost);
-            return if is_later { Turn::Later(accepted.cost) } else { Turn::Now(prey, accepted) };
+                raise_bound(&mut candidate.cost, accepted.cost) && !queue.is_first(v, accepted.cost);
+            return if is_later { EdgeTurn::Later(accepted.cost) } else { EdgeTurn::Now(prey, accepted) };
         }
         if std::mem::take(&mut is_known) {
             edges.find(state, v, candidate);
         }
         candidate.n_refused += 1;
     }
-    Turn::None
+    EdgeTurn::None
 }
 
 /// The edges of one vertex with their costs. Kept and filled anew.
@@ -128,8 +138,9 @@ fn by_cost(a: &&(f64, u32), b: &&(f64, u32)) -> std::cmp::Ordering {
 }
 
 impl Edges {
-    /// Finds the edges from `v` to older vertices, of those that may be fused; gives the least cost.
-    fn find(&mut self, state: &State, v: u32, candidate: &mut Candidate) -> Option<f64> {
+    /// Finds the edges from `v` to older vertices, of those that may be fused; gives the least
+    /// cost.
+    fn find(&mut self, state: &State, v: u32, candidate: &mut EdgeCandidate) -> Option<f64> {
         self.neighbours.clear();
         let slots = if state.is_crowded(v) { &[] } else { state.mesh.slots_at(v) };
         for &slot in slots {

@@ -1,4 +1,5 @@
-//! Fields carried along: their values at fusion points, and how far they have come from those of the input.
+//! Fields carried along: their values at fusion points, and how far they have come from those of
+//! the input.
 
 use super::jumps::Jumps;
 use super::neighbourhood::{Affected, Neighbourhood};
@@ -11,7 +12,7 @@ use std::ops::Range;
 /// The fields of a mesh in `f64`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fields {
-    shapes: Vec<Shape>,
+    shapes: Vec<FieldShape>,
     /// Components of all fields together.
     n_values: usize,
     /// `n_values` per vertex.
@@ -28,15 +29,16 @@ pub(super) struct Fields {
 
 /// One field.
 #[derive(Clone, Debug)]
-struct Shape {
+struct FieldShape {
     name: String,
     scalar: ScalarType,
     /// Its components, among all `n_values`.
     places: Range<usize>,
 }
 
-impl Shape {
-    /// Whether its values are labels or counts: a new vertex gets one of those that it replaces, and never a mean.
+impl FieldShape {
+    /// Whether its values are labels or counts: a new vertex gets one of those that it replaces,
+    /// and never a mean.
     fn is_whole(&self) -> bool {
         !matches!(self.scalar, ScalarType::F32 | ScalarType::F64)
     }
@@ -50,7 +52,8 @@ struct Column {
     scale: f64,
     /// Least and largest finite value in the input.
     range: [f64; 2],
-    /// Whether a new vertex gets the metric's best value: not in whole numbers, nor where values are not finite.
+    /// Whether a new vertex gets the metric's best value: not in whole numbers, nor where values
+    /// are not finite.
     is_fitted: bool,
 }
 
@@ -63,16 +66,16 @@ impl Column {
 }
 
 impl Fields {
-    /// The fields of a mesh of `n_vertices` vertices; to the metric, the range of each is worth `length`, and with a length of zero
-    /// nothing. Fields that do not vary are left out there.
+    /// The fields of a mesh of `n_vertices` vertices; to the metric, the range of each is worth
+    /// `length`, and with a length of zero nothing. Fields that do not vary are left out there.
     pub(super) fn new(attributes: &[Attribute], n_vertices: usize, length: f64) -> Self {
         let mut n_values = 0;
         let shapes = attributes.iter().map(|a| {
             let first = n_values;
             n_values += a.n_components as usize;
-            Shape { name: a.name.clone(), scalar: a.scalar, places: first..n_values }
+            FieldShape { name: a.name.clone(), scalar: a.scalar, places: first..n_values }
         });
-        let shapes: Vec<Shape> = shapes.collect();
+        let shapes: Vec<FieldShape> = shapes.collect();
         let mut values = vec![0.0; n_values * n_vertices];
         for (attribute, shape) in attributes.iter().zip(&shapes) {
             let mut attribute = attribute.values();
@@ -110,7 +113,8 @@ impl Fields {
         self.shapes.iter().map(|shape| shape.name.as_str())
     }
 
-    /// The values that the metric weighs, scaled: their number per vertex, and those of all vertices.
+    /// The values that the metric weighs, scaled: their number per vertex, and those of all
+    /// vertices.
     pub(super) fn scaled(&self) -> (usize, Vec<f64>) {
         let rows = self.values.chunks_exact(self.n_values.max(1));
         let scaled = rows.flat_map(|row| self.columns.iter().map(|column| column.scaled(row[column.place])));
@@ -123,9 +127,10 @@ impl Fields {
         column.scaled(self.values[v as usize * self.n_values + column.place])
     }
 
-    /// Values at `p` for a vertex that takes the place of `fused`. At the place of one of them they are its own, so that what holds
-    /// at a boundary goes on to hold there. Elsewhere whole numbers are those of the nearest of `fused`; other numbers that the
-    /// metric weighs are its best ones, within the range of the input: values of single vertices stand for ever fewer of the
+    /// Values at `p` for a vertex that takes the place of `fused`. At the place of one of them they
+    /// are its own, so that what holds at a boundary goes on to hold there. Elsewhere whole numbers
+    /// are those of the nearest of `fused`; other numbers that the metric weighs are its best ones,
+    /// within the range of the input: values of single vertices stand for ever fewer of the
     /// input's. The rest is interpolated in the tetrahedron that holds `p`.
     pub(super) fn add_vertex(
         &mut self,
@@ -167,8 +172,9 @@ impl Fields {
         interpolate(corners.map(|v| self.values[v as usize * self.n_values + place]), weights)
     }
 
-    /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their values are from those that the
-    /// new tetrahedra have at their places. The affected tetrahedra have their new corner, `new` at `p`.
+    /// Estimates the deviation at the newest vertex: what the fused ones had, and how far their
+    /// values are from those that the new tetrahedra have at their places. The affected tetrahedra
+    /// have their new corner, `new` at `p`.
     pub(super) fn deviate(&mut self, surroundings: Surroundings<'_>, fused: &[u32], new: u32) {
         let n_fields = self.len();
         if n_fields == 0 {
@@ -192,8 +198,9 @@ impl Fields {
         }
     }
 
-    /// The deviation of a field at a vertex that had `before` and now is inside a tetrahedron. In whole numbers it is 1 where the
-    /// value is not that of the nearest corner; in others the difference is added, without components that are not finite.
+    /// The deviation of a field at a vertex that had `before` and now is inside a tetrahedron. In
+    /// whole numbers it is 1 where the value is not that of the nearest corner; in others the
+    /// difference is added, without components that are not finite.
     fn deviation(&self, field: usize, before: f64, v: u32, (corners, weights): ([u32; 4], [f64; 4])) -> f64 {
         let shape = &self.shapes[field];
         let row = |v: u32| &self.values[v as usize * self.n_values..][..self.n_values];
@@ -213,7 +220,7 @@ impl Fields {
     /// The fields of all vertices as attributes, rounded to the types they came in.
     pub(super) fn into_attributes(self) -> Vec<Attribute> {
         let rows = || self.values.chunks_exact(self.n_values.max(1));
-        let attribute = |Shape { name, scalar, places }: &Shape| {
+        let attribute = |FieldShape { name, scalar, places }: &FieldShape| {
             let values = rows().flat_map(|row| row[places.clone()].iter().copied());
             let n_components = u32::try_from(places.len()).unwrap_or(u32::MAX);
             Attribute::from_values(name.clone(), *scalar, n_components, values)
@@ -223,7 +230,7 @@ impl Fields {
 }
 
 /// The components that the metric weighs, the widest of each field scaled to a range of `length`.
-fn columns(shapes: &[Shape], n_values: usize, values: &[f64], length: f64) -> Vec<Column> {
+fn columns(shapes: &[FieldShape], n_values: usize, values: &[f64], length: f64) -> Vec<Column> {
     let mut columns = Vec::new();
     for shape in shapes {
         let places = shape.places.clone();
@@ -270,7 +277,8 @@ pub(super) struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
-    /// The vertices of the tetrahedron before a fusion that holds `p`, or that it is least outside of, with its coordinates there.
+    /// The vertices of the tetrahedron before a fusion that holds `p`, or that it is least outside
+    /// of, with its coordinates there.
     fn tetrahedron_at(&self, p: Vector) -> Option<([u32; 4], [f64; 4])> {
         let affected = self.around.affected.iter().map(|affected| affected.slot);
         let slots = self.around.deleted.iter().copied().chain(affected);
@@ -290,8 +298,9 @@ impl Surroundings<'_> {
         best
     }
 
-    /// The vertices of the new tetrahedron that `x` lies in, or that it is least outside of, with its coordinates there, made positive
-    /// where that is far. The fusion point at `p` has the vertex `new`; tetrahedra beyond a jump have another one there.
+    /// The vertices of the new tetrahedron that `x` lies in, or that it is least outside of, with
+    /// its coordinates there, made positive where that is far. The fusion point at `p` has the
+    /// vertex `new`; tetrahedra beyond a jump have another one there.
     fn cone_at(&self, p: Vector, x: Vector, new: u32) -> Option<([u32; 4], [f64; 4])> {
         let ray = sub(x, p);
         let mut best = None;
@@ -301,7 +310,8 @@ impl Surroundings<'_> {
             let across = cross(b, c);
             let volume = dot(a, across);
             let u = dot(ray, across) / volume;
-            // Most are refused by the first of three coordinates; a base seen edge-on gives no number.
+            // Most are refused by the first of three coordinates; a base seen edge-on gives no
+            // number.
             if u.is_nan() || u <= best_inside {
                 continue;
             }
@@ -316,7 +326,8 @@ impl Surroundings<'_> {
                 }
             }
         }
-        // A little outside, by rounding or where the boundary has moved inwards, the field goes on as it is.
+        // A little outside, by rounding or where the boundary has moved inwards, the field goes on
+        // as it is.
         let (corners, weights) = best?;
         if best_inside > -MAX_OUTSIDE {
             return Some((corners, weights));
@@ -326,7 +337,8 @@ impl Surroundings<'_> {
         Some((corners, positive.map(|weight| weight / sum)))
     }
 
-    /// The vertex `new` and those of the base of an affected tetrahedron; `None` if it has another vertex at the fusion point.
+    /// The vertex `new` and those of the base of an affected tetrahedron; `None` if it has another
+    /// vertex at the fusion point.
     fn vertices_of(&self, affected: &Affected, new: u32) -> Option<[u32; 4]> {
         let [a, b, c] = affected.base;
         if self.jumps.is_empty() {

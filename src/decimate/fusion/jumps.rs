@@ -1,25 +1,29 @@
 //! Jumps: points at which a field has several values, one for each side of a fault or an interface.
 //!
-//! Points decide what may be fused. Each corner of a tetrahedron refers besides to a vertex, which is a point with one value of
-//! each field. A *jump face* lies between two tetrahedra that do not have the same vertices there; its points are *at the jump*.
+//! Points decide what may be fused. Each corner of a tetrahedron refers besides to a vertex, which
+//! is a point with one value of each field. A *jump face* lies between two tetrahedra that do not
+//! have the same vertices there; its points are *at the jump*.
 //!
-//! Values never cross a jump: of the fused points one at most is at a jump, and the fusion point is at its place. So the jump
-//! faces stay where they are. The tetrahedra on the side of the fusion get the new vertex; those on other sides keep theirs,
-//! whose place and values are as before. Two points at a jump are not fused.
+//! Values never cross a jump: of the fused points one at most is at a jump, and the fusion point is
+//! at its place. So the jump faces stay where they are. The tetrahedra on the side of the fusion
+//! get the new vertex; those on other sides keep theirs, whose place and values are as before. Two
+//! points at a jump are not fused.
 
 use crate::mesh::{Tetrahedra, jump_faces};
 
 /// The vertices of all corners, and the points at jumps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Jumps {
-    /// The vertices at the corners of every slot; none if each point has one vertex, of the same number.
+    /// The vertices at the corners of every slot; none if each point has one vertex, of the same
+    /// number.
     vertices: Vec<[u32; 4]>,
     /// Whether each point is at a jump.
     is_at_jump: Vec<bool>,
 }
 
 impl Jumps {
-    /// The jumps of a mesh; `vertices` has the vertices at the corners of each tetrahedron if any point has several. O(n).
+    /// The jumps of a mesh; `vertices` has the vertices at the corners of each tetrahedron if any
+    /// point has several. O(n).
     pub(super) fn new(corners: &[[u32; 4]], vertices: Option<Vec<[u32; 4]>>, n_points: usize) -> Self {
         let Some(vertices) = vertices else { return Self::default() };
         let mut is_at_jump = vec![false; n_points];
@@ -50,7 +54,8 @@ impl Jumps {
         self.vertices.get(slot as usize).copied().unwrap_or(corners)
     }
 
-    /// The vertices at the ends of an edge: those of the first tetrahedron there. O(star) at a jump.
+    /// The vertices at the ends of an edge: those of the first tetrahedron there. O(star) at a
+    /// jump.
     pub(super) fn at_edge(&self, mesh: &Tetrahedra, [a, b]: [u32; 2]) -> [u32; 2] {
         if !self.is_at(a) && !self.is_at(b) {
             return [a, b];

@@ -1,18 +1,21 @@
 //! The planar quadric error metric (equations 1 to 5 of the paper), generalised to fields.
 //!
-//! A vertex carries the sum of `a^2 p p^T` over the planes `p` of the triangles around it, `a` their areas. With `n` the cross
-//! product of two sides, the plane with weight is `(n, -n v) / 2`: no root and no division. Every tetrahedron contributes its own
-//! faces, so that those inside the mesh count twice; those on the boundary count [`BOUNDARY_WEIGHT`] times.
+//! A vertex carries the sum of `a^2 p p^T` over the planes `p` of the triangles around it, `a`
+//! their areas. With `n` the cross product of two sides, the plane with weight is `(n, -n v) / 2`:
+//! no root and no division. Every tetrahedron contributes its own faces, so that those inside the
+//! mesh count twice; those on the boundary count [`BOUNDARY_WEIGHT`] times.
 //!
-//! A field is linear in a tetrahedron, `f(x) = g x + d`. Carried by the vertices as well, the sum of `w (g x + d - f)^2` over
-//! the tetrahedra measures how far a value `f` at `x` departs from them, in the same unit when the field is scaled to
-//! lengths and `w` is a sum of squared areas. It is the mean one of all tetrahedra, not the own one: where a simulation has much to
-//! tell its cells are small, and with their own areas all that they resolve would be fused first. The least value over `f` is a
-//! quadric in `x` alone, which is added to the
-//! planes': the point that is best for the shape and all fields solves one system of three equations.
+//! A field is linear in a tetrahedron, `f(x) = g x + d`. Carried by the vertices as well, the sum
+//! of `w (g x + d - f)^2` over the tetrahedra measures how far a value `f` at `x` departs from
+//! them, in the same unit when the field is scaled to lengths and `w` is a sum of squared areas. It
+//! is the mean one of all tetrahedra, not the own one: where a simulation has much to tell its
+//! cells are small, and with their own areas all that they resolve would be fused first. The least
+//! value over `f` is a quadric in `x` alone, which is added to the planes': the point that is best
+//! for the shape and all fields solves one system of three equations.
 //!
-//! References: P. Chopra, J. Meyer: "Topology sensitive volume mesh simplification with planar quadric error metrics" (IASTED VIIP,
-//! 2003); H. Hoppe: "New quadric metric for simplifying meshes with appearance attributes" (IEEE Visualization, 1999).
+//! References: P. Chopra, J. Meyer: "Topology sensitive volume mesh simplification with planar
+//! quadric error metrics" (IASTED VIIP, 2003); H. Hoppe: "New quadric metric for simplifying meshes
+//! with appearance attributes" (IEEE Visualization, 1999).
 
 use super::jumps::Jumps;
 use crate::geometry::vector::{Vector, add_scaled, cross, dot, sub};
@@ -55,12 +58,13 @@ impl Quadric {
 /// Quadrics of all vertices, and of what the fields add.
 #[derive(Clone, Debug)]
 pub(super) struct Metric {
-    /// Numbers per vertex: 10 of the quadric, then, where there are fields, the sum of the weights and for each field those of
-    /// `w g` and `w d`.
+    /// Numbers per vertex: 10 of the quadric, then, where there are fields, the sum of the weights
+    /// and for each field those of `w g` and `w d`.
     stride: usize,
     n_fields: usize,
     numbers: Vec<f64>,
-    /// The row of each vertex in `numbers`. A fusion point has that of a fused vertex, whose numbers nobody asks for again.
+    /// The row of each vertex in `numbers`. A fusion point has that of a fused vertex, whose
+    /// numbers nobody asks for again.
     rows: Vec<u32>,
     /// `w` of every tetrahedron that has a volume.
     field_weight: f64,
@@ -103,7 +107,8 @@ impl Metric {
             *plane = Quadric::plane(normals[i], -dot(normals[i], points[FACES[i][0]]), 0.25 * weight);
             sum.add(plane);
         }
-        // Normals point outwards; the one opposite a corner is -6V times the gradient of its coordinate.
+        // Normals point outwards; the one opposite a corner is -6V times the gradient of its
+        // coordinate.
         let six_volumes = -dot(normals[0], sub(points[0], points[1]));
         let gradients = normals.map(|normal| normal.map(|x| -x / six_volumes));
         let weight = if six_volumes.abs() > 0.0 { self.field_weight } else { 0.0 };
@@ -175,8 +180,9 @@ impl Metric {
         quadric
     }
 
-    /// The scaled value of a field that is best for a fusion of these vertices at a point of the quadrics' coordinates: the mean of
-    /// what the field's pieces around them say there. `None` where none of them has a volume, and for a field that is not weighed.
+    /// The scaled value of a field that is best for a fusion of these vertices at a point of the
+    /// quadrics' coordinates: the mean of what the field's pieces around them say there. `None`
+    /// where none of them has a volume, and for a field that is not weighed.
     pub(super) fn best_value(&self, vertices: &[u32], field: usize, p: Vector) -> Option<f64> {
         if field >= self.n_fields {
             return None;
@@ -192,8 +198,8 @@ impl Metric {
         (weight > 0.0).then(|| sum / weight)
     }
 
-    /// What a fusion of these vertices at `p` costs beyond its quadric where the fields do not take their best values there, but the
-    /// given ones, scaled.
+    /// What a fusion of these vertices at `p` costs beyond its quadric where the fields do not take
+    /// their best values there, but the given ones, scaled.
     pub(super) fn departure(&self, vertices: &[u32], p: Vector, value: impl Fn(usize) -> f64) -> f64 {
         let weight: f64 = vertices.iter().map(|&v| self.weight(v)).sum();
         let departure = |field| self.best_value(vertices, field, p).map_or(0.0, |best| value(field) - best);

@@ -1,4 +1,5 @@
-//! Everything that a fusion touches: the tetrahedra that die with it, those that stretch, and the boundary between.
+//! Everything that a fusion touches: the tetrahedra that die with it, those that stretch, and the
+//! boundary between.
 
 use super::links::is_simple;
 use super::prey::Prey;
@@ -19,8 +20,8 @@ pub(super) struct Affected {
     normal: Vector,
 }
 
-/// Least height of a tetrahedron over its base, as a part of the distance between its apex and a corner of the base: far above
-/// what rounding does to the sign of a volume.
+/// Least height of a tetrahedron over its base, as a part of the distance between its apex and a
+/// corner of the base: far above what rounding does to the sign of a volume.
 const MIN_SLOPE: f64 = 1e-8;
 
 impl Affected {
@@ -33,7 +34,8 @@ impl Affected {
         Self { slot, corner, base, origin: p, normal: cross(sub(q, p), sub(r, p)) }
     }
 
-    /// Six times the volume with the moving corner at `p`, or `None` where it is not safely positive ("flipped").
+    /// Six times the volume with the moving corner at `p`, or `None` where it is not safely
+    /// positive ("flipped").
     #[inline(always)]
     fn six_volumes(&self, p: Vector) -> Option<f64> {
         let side = sub(p, self.origin);
@@ -57,8 +59,8 @@ pub(super) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// Gathers the surroundings of a prey; false, and no more than begun, where a tetrahedron would flip with the fusion point at
-    /// `p`. O(the stars of its vertices).
+    /// Gathers the surroundings of a prey; false, and no more than begun, where a tetrahedron would
+    /// flip with the fusion point at `p`. O(the stars of its vertices).
     pub(super) fn gather(&mut self, mesh: &Tetrahedra, prey: &Prey, p: Option<Vector>) -> bool {
         self.affected.clear();
         self.deleted.clear();
@@ -85,7 +87,8 @@ impl Neighbourhood {
         true
     }
 
-    /// Takes the boundary faces of a tetrahedron that have the last of `vertices`, but none before it.
+    /// Takes the boundary faces of a tetrahedron that have the last of `vertices`, but none before
+    /// it.
     fn take_faces(&mut self, corners: [u32; 4], bits: u8, vertices: &[u32]) {
         let Some((v, earlier)) = vertices.split_last() else { return };
         for corner in (0..4).filter(|corner| bits >> corner & 1 == 1) {
@@ -99,8 +102,9 @@ impl Neighbourhood {
         }
     }
 
-    /// Whether the bases, the link of the fusion point, are a sphere, or a disk where it is on the boundary. Where tetrahedra
-    /// overlap that were not together before, the fusion would join them, and a face get a third one. O(affected).
+    /// Whether the bases, the link of the fusion point, are a sphere, or a disk where it is on the
+    /// boundary. Where tetrahedra overlap that were not together before, the fusion would join
+    /// them, and a face get a third one. O(affected).
     pub(super) fn is_ball(&mut self, mesh: &Tetrahedra, prey: &Prey) -> bool {
         self.met.resize(mesh.n_vertices(), 0);
         self.n_counts = self.n_counts.wrapping_add(1);
@@ -114,8 +118,8 @@ impl Neighbourhood {
         is_simple(n_vertices, self.affected.len(), n_rim)
     }
 
-    /// Whether a fusion at the place of `v`, whose surroundings need be no ball, leaves each face there with two tetrahedra at most, or
-    /// with as many as it had. O(affected log affected).
+    /// Whether a fusion at the place of `v`, whose surroundings need be no ball, leaves each face
+    /// there with two tetrahedra at most, or with as many as it had. O(affected log affected).
     pub(super) fn joins_nothing(&mut self, mesh: &Tetrahedra, v: u32) -> bool {
         let mut sides: Vec<([u32; 2], bool)> = Vec::with_capacity(3 * self.affected.len());
         for Affected { slot, corner, base: [a, b, c], .. } in &self.affected {
@@ -129,7 +133,8 @@ impl Neighbourhood {
         })
     }
 
-    /// Six times the volume of all affected tetrahedra with the fusion point at `p`, or `None` where one of them flips.
+    /// Six times the volume of all affected tetrahedra with the fusion point at `p`, or `None`
+    /// where one of them flips.
     pub(super) fn six_volumes(&self, p: Vector) -> Option<f64> {
         let mut sum = 0.0;
         for affected in &self.affected {
@@ -144,8 +149,8 @@ impl Neighbourhood {
         affected.chain(self.deleted.iter().copied()).map(|slot| mesh.six_volumes(slot)).sum()
     }
 
-    /// The faces of an affected tetrahedron that are on the boundary after the fusion: its base if it was, and its sides over the
-    /// rim of the boundary faces that go.
+    /// The faces of an affected tetrahedron that are on the boundary after the fusion: its base if
+    /// it was, and its sides over the rim of the boundary faces that go.
     pub(super) fn boundary_bits(&self, mesh: &Tetrahedra, prey: &Prey, affected: &Affected) -> u8 {
         let own = 1 << affected.corner;
         let mut bits = mesh.boundary_bits(affected.slot) & own;

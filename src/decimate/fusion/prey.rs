@@ -1,4 +1,5 @@
-//! What is fused: the four points of a tetrahedron, or the two of an edge where no tetrahedron can be fused any more.
+//! What is fused: the four points of a tetrahedron, or the two of an edge where no tetrahedron can
+//! be fused any more.
 
 use crate::flat::NO_INDEX;
 

@@ -10,11 +10,11 @@ use std::collections::BinaryHeap;
 
 /// Slots by cost, the least first, ties by slot. Each slot is in it at most once.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Queue {
+pub(super) struct CostQueue {
     heap: BinaryHeap<Reverse<u64>>,
 }
 
-impl Queue {
+impl CostQueue {
     /// All slots of `costs` at once. O(n).
     pub(super) fn new(costs: impl Iterator<Item = (u32, f64)>) -> Self {
         Self { heap: costs.map(|(slot, cost)| Reverse(key(slot, cost))).collect() }
@@ -43,13 +43,22 @@ fn key(slot: u32, cost: f64) -> u64 {
     u64::from(cost.to_bits()) << 32 | u64::from(slot)
 }
 
+/// Raises the lower bound `known` of a candidate's cost to `cost`; true if that is more.
+#[expect(clippy::cast_possible_truncation, reason = "the order needs no more digits")]
+pub(super) fn raise_bound(known: &mut f32, cost: f64) -> bool {
+    let cost = cost as f32;
+    let is_more = cost > *known;
+    *known = known.max(cost);
+    is_more
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn candidates_come_by_cost_then_by_slot() {
-        let mut queue = Queue::new([(7, 2.0), (3, 1e-30), (9, 2.0)].into_iter());
+        let mut queue = CostQueue::new([(7, 2.0), (3, 1e-30), (9, 2.0)].into_iter());
         assert!(queue.is_first(0, 0.0) && !queue.is_first(0, 1.0));
         queue.push(1, f64::INFINITY);
         queue.push(2, -1e-12);

@@ -1,6 +1,5 @@
 //! The mesh in the middle of its fusion, with all that is kept beside it.
 
-use super::attempt::Accepted;
 use super::creases::Creases;
 use super::fields::{Fields, Surroundings};
 use super::jumps::Jumps;
@@ -10,21 +9,24 @@ use super::options::FusionOptions;
 use super::patch::Patch;
 use super::prey::Prey;
 use super::unit::Unit;
-use crate::decimate::{Decimated, Input};
+use crate::decimate::{Decimated, Input, Stopped, Watch};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::vector::{Vector, max};
 use crate::history::{Deviation, Recorder};
 use crate::mesh::{RepairedVolume, Tetrahedra};
 use nephrite_formats::TetrahedronMesh;
 
-/// Largest distance that rounding a point to `f32` and its coordinates' products may make, in parts of the extent.
+/// Largest distance that rounding a point to `f32` and its coordinates' products may make, in parts
+/// of the extent.
 const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 
 /// [`State::fine_error`] in parts of the bounding box diagonal.
 const FINE_ERROR: f64 = 0.0005;
 
-/// The mesh in the middle of its fusion. Lengths are in units of `unit`; those of the input and of the recorder are in mesh
-/// units.
+/// The mesh in the middle of its fusion. Lengths are in units of `unit`; those of the input and of
+/// the recorder are in mesh units. Fusions between two calls of the observer.
+const OBSERVED: usize = 256;
+
 pub(super) struct State {
     unit: Unit,
     pub mesh: Tetrahedra,
@@ -33,7 +35,8 @@ pub(super) struct State {
     pub jumps: Jumps,
     pub fields: Fields,
     pub recorder: Recorder<4>,
-    /// Bound on the distance between the input's boundary and the faces whose newest corner a vertex is.
+    /// Bound on the distance between the input's boundary and the faces whose newest corner a
+    /// vertex is.
     pub errors: Vec<f64>,
     /// Fusion at which the star of a vertex last changed.
     pub touched: Vec<u32>,
@@ -49,7 +52,8 @@ pub(super) struct State {
     pub max_error: f64,
     /// Whether no two points of the boundary may become one.
     pub lock_boundary: bool,
-    /// The error that fusions of tetrahedra may bring to the boundary; what is coarser is left to edges, which move less of it.
+    /// The error that fusions of tetrahedra may bring to the boundary; what is coarser is left to
+    /// edges, which move less of it.
     pub fine_error: f64,
     quadric_distances: Vec<f64>,
     field_deviations: Vec<Vec<f64>>,
@@ -77,6 +81,16 @@ pub struct FusionReport {
     /// Entries of stars read.
     #[cfg(test)]
     pub n_read: u64,
+}
+
+/// A fusion that holds.
+pub(super) struct Accepted {
+    pub point: [f32; 3],
+    /// Bound on the distance between the boundary faces that come and the boundary of the input.
+    pub error: f64,
+    pub six_volumes_lost: f64,
+    /// What the fusion costs with the boundary's error counted in.
+    pub cost: f64,
 }
 
 impl State {
@@ -135,7 +149,21 @@ impl State {
         self.n_fusions as u32
     }
 
-    /// Makes a fusion whose neighbourhood is gathered; `changed` hears of every slot with new corners. Returns the new vertex.
+    /// Tells `watch` how far the fusions have come, every so many of them.
+    ///
+    /// # Errors
+    ///
+    /// [`Stopped`] when it breaks.
+    pub(super) fn tell(&self, watch: Watch<'_>) -> Result<(), Stopped> {
+        let is_time = self.n_fusions.is_multiple_of(OBSERVED);
+        if is_time && watch(self.mesh.n_alive(), self.recorder.error()).is_break() {
+            return Err(Stopped::Interrupted);
+        }
+        Ok(())
+    }
+
+    /// Makes a fusion whose neighbourhood is gathered; `changed` hears of every slot with new
+    /// corners. Returns the new vertex.
     pub(super) fn fuse(&mut self, prey: &Prey, accepted: &Accepted, mut changed: impl FnMut(u32)) -> u32 {
         let quadric = self.metric.of(prey.vertices());
         self.recorder.step(self.unit.to_mesh(accepted.error));
