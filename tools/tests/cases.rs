@@ -48,7 +48,7 @@ const ROWS: &[(&str, &[Check])] = &[
     ("surfaces/uvquad.obj (two meshes)", &[Run(two_meshes)]),
     ("surfaces/uvquad.obj (-o foo.ply)", &[Run(file_named_as_a_mesh)]),
     ("surfaces/two_materials.obj (--error 0)", &[Run(error_zero)]),
-    ("surfaces/far_box.ply", &[Built]),
+    ("surfaces/far_box.ply", &[Run(far_box)]),
     ("surfaces/two_materials.obj", &[Notes(&["material", "group"])]),
     ("surfaces/two_materials.glb", &[Notes(&["material"])]),
     ("surfaces/multi_solid.stl", &[Notes(&["solid"])]),
@@ -275,6 +275,20 @@ fn error_zero(place: &Workplace, path: &Path) {
     assert_eq!(run.status, 0, "{}", run.stderr);
     let level: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!((index(&level, "level"), index(&level, "triangles")), (0, 5120));
+}
+
+/// What vanishes has moved by its distance to what is left.
+fn far_box(place: &Workplace, path: &Path) {
+    build(place, path, "--method progressive");
+    for n_triangles in [150, 40, 11] {
+        let level = place.json(&format!("extract out.neph --triangles {n_triangles} -o lod.ply"));
+        let Some(error) = level["error"].as_f64() else { continue };
+        assert!(index(&level, "triangles") > 0, "an empty level states no finite error");
+        let measured = run(place, "measure", path, "lod.ply --samples 2000 --json");
+        let measured: Value = serde_json::from_str(&measured.stdout).expect("JSON");
+        assert!(number(&measured, "max") <= error, "at {n_triangles}: {error} for {measured}");
+    }
+    assert!(index(&place.json("extract out.neph --error 1% -o lod.ply"), "triangles") > 0);
 }
 
 fn nan_vertices(place: &Workplace, path: &Path) {
