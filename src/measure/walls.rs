@@ -51,7 +51,7 @@ pub(crate) fn inner_walls(surface: &[Triangle], apexes: &[Vector]) -> InnerWalls
     };
     let areas: Vec<f64> =
         faces.par_iter().filter(|face| is_thick(face) && is_in_wall(face)).map(|face| face.area).collect();
-    InnerWalls { n_faces: areas.len(), area: areas.iter().sum() }
+    InnerWalls { n_faces: areas.len(), area: areas.iter().fold(0.0, |sum, area| sum + area) }
 }
 
 struct Face {
