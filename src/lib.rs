@@ -12,19 +12,33 @@
 //! * Trust: [`Lod::verify`] checks every rule of the format, [`ErrorTable`] proves the errors of a file anew, and [`measure`]
 //!   compares any two surfaces.
 //! * Stream: a [`ProgressiveMesh`] is built up by the operations of a progressive build, one by one as they arrive.
+//!
+//! Two features are on by default. Without `build` there are no decimators: the crate opens, verifies
+//! and queries files and writes histories. Without `measure` there is no distance between meshes
+//! either.
 #![allow(unreachable_pub, reason = "items of private modules are named below where they are public")]
+#![cfg_attr(
+    not(feature = "build"),
+    allow(dead_code, unused_imports, reason = "parts of shared modules that only builds use")
+)]
 
+#[cfg(feature = "build")]
 mod bound;
+#[cfg(feature = "build")]
 mod builder;
+#[cfg(feature = "build")]
 mod decimate;
 mod flat;
+#[cfg(feature = "build")]
 pub mod generate;
 mod geometry;
 mod history;
+#[cfg(feature = "measure")]
 pub mod measure;
 mod mesh;
 mod progressive_mesh;
 mod query;
+#[cfg(feature = "build")]
 mod reprove;
 mod store;
 mod tree;
@@ -38,24 +52,35 @@ pub mod internals {
     pub use crate::tree::{Layout, Lifetime, Tree};
 }
 
+#[cfg(feature = "build")]
 pub use bound::estimate::EstimateKind;
+#[cfg(feature = "build")]
 pub use builder::{
     Build, BuildError, BuildOptions, Decimator, Observer, Phase, Progress, VolumeBuild, VolumeOptions,
     bounding_diagonal, build, build_volume, build_volume_with, build_with, repair_volume,
 };
+#[cfg(feature = "build")]
 pub use decimate::fusion::{FusionOptions, FusionReport};
+#[cfg(feature = "build")]
 pub use decimate::jade::{JadeBound, JadeOptions, Placement};
+#[cfg(feature = "build")]
 pub use decimate::progressive::events::{Event, EventKind, EventLog, Tally};
+#[cfg(feature = "build")]
 pub use decimate::progressive::journal::Counts;
+#[cfg(feature = "build")]
 pub use decimate::progressive::{ProgressiveBound, ProgressiveOptions, ProgressiveReport};
 pub use history::{Deviation, History, HistoryError, Levels, NEVER};
+#[cfg(feature = "build")]
 pub use mesh::{RepairReport, TetrahedronRepairReport};
 pub use nephrite_formats::{Attribute, MeshFault, ScalarType, TetrahedronMesh, TriangleMesh};
-pub use progressive_mesh::{Encoded, ProgressiveMesh, STREAM_HEADER_BYTES, StreamError};
+#[cfg(feature = "build")]
+pub use progressive_mesh::Encoded;
+pub use progressive_mesh::{ProgressiveMesh, STREAM_HEADER_BYTES, StreamError};
 pub use query::{
     CurvePoint, Cut, Delta, INFLECTION_RATIO, Landing, Lod, Picker, Projection, QueryError, Replayed,
     Simplex, View,
 };
+#[cfg(feature = "build")]
 pub use reprove::{ErrorTable, ReproveError};
 pub use store::{
     AttributeView, Bound, CompactFault, Metadata, Method, OpenError, StoreOptions, StoreReport, VerifyError,

@@ -12,13 +12,17 @@
 //! when the stream is [read](ProgressiveMesh::append), and playing only copies numbers.
 
 mod decode;
+#[cfg(feature = "build")]
 mod encode;
 mod error;
 mod growth;
+#[cfg(feature = "build")]
 mod plan;
 mod planes;
 
+#[cfg(feature = "build")]
 pub use encode::Encoded;
+#[cfg(feature = "build")]
 pub(crate) use encode::encode;
 pub use error::StreamError;
 
