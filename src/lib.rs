@@ -16,10 +16,14 @@
 //! Two features are on by default. Without `build` there are no decimators: the crate opens, verifies
 //! and queries files and writes histories. Without `measure` there is no distance between meshes
 //! either.
-#![allow(unreachable_pub, reason = "items of private modules are named below where they are public")]
 #![cfg_attr(
     not(feature = "build"),
-    allow(dead_code, unused_imports, reason = "parts of shared modules that only builds use")
+    allow(
+        dead_code,
+        unreachable_pub,
+        unused_imports,
+        reason = "parts of shared modules that only builds use"
+    )
 )]
 
 #[cfg(feature = "build")]
@@ -41,6 +45,7 @@ mod query;
 #[cfg(feature = "build")]
 mod reprove;
 mod store;
+#[cfg_attr(not(feature = "internals"), allow(unreachable_pub, reason = "public with that feature"))]
 mod tree;
 mod vertex_cache;
 mod volume;

@@ -20,13 +20,13 @@ const AREAS_PER_SAMPLE: f64 = 128.0;
 /// estimate grows with the samples, and with as many as one for sixteen the bunny keeps an eighth
 /// more triangles at 1 %.
 #[derive(Clone, Copy, Debug)]
-pub struct Sampler {
+pub(crate) struct Sampler {
     mean_area: f64,
 }
 
 impl Sampler {
     /// A sampler for simplifications of `surface`, which is the input.
-    pub fn new(surface: &Surface) -> Self {
+    pub(crate) fn new(surface: &Surface) -> Self {
         let total: f64 = surface.iter().map(|(slot, _)| area(&surface.triangle(slot))).sum();
         Self { mean_area: total / surface.n_triangles() as f64 }
     }
@@ -34,7 +34,7 @@ impl Sampler {
     /// Square of the largest distance of a sample on `triangle` to the star of `hole`: e_l1 of the
     /// paper. Stops early, with a value above `limit_sq`, once one sample is that far away.
     /// O(valence) per sample.
-    pub fn local_error_sq(&self, triangle: &Triangle, hole: &Hole, limit_sq: f64) -> f64 {
+    pub(crate) fn local_error_sq(&self, triangle: &Triangle, hole: &Hole, limit_sq: f64) -> f64 {
         let mut error_sq = 0.0_f64;
         for weights in self.weights(triangle) {
             let sample = at(triangle, weights);
@@ -53,7 +53,12 @@ impl Sampler {
     /// that of the triangle it is measured against, which is all that the triangle inequality asks
     /// for: on the bunny at 0.1 % of the diagonal the paper's sum leaves 15,300 triangles and this
     /// one 9,200.
-    pub fn accumulated_error(&self, triangle: &Triangle, hole: &Hole, of_star: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn accumulated_error(
+        &self,
+        triangle: &Triangle,
+        hole: &Hole,
+        of_star: impl Fn(usize) -> f64,
+    ) -> f64 {
         let through = |sample: Vector, i: usize| {
             point_triangle_distance_sq(sample, &hole.triangle(i)).sqrt() + of_star(i)
         };
@@ -104,35 +109,35 @@ fn distance_to_star_sq(p: Vector, hole: &Hole) -> f64 {
 
 /// Accumulated error of the triangle in each slot.
 #[derive(Clone, Debug)]
-pub struct Accumulated {
+pub(crate) struct Accumulated {
     errors: Vec<f32>,
 }
 
 impl Accumulated {
     /// No error yet, in any of `n_slots` slots.
-    pub fn new(n_slots: usize) -> Self {
+    pub(crate) fn new(n_slots: usize) -> Self {
         Self { errors: vec![0.0; n_slots] }
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         slots.close_up(&mut self.errors);
     }
 
     /// Error of the triangle in `slot`.
-    pub fn of(&self, slot: u32) -> f64 {
+    pub(crate) fn of(&self, slot: u32) -> f64 {
         self.errors[slot as usize].into()
     }
 
     /// Sets the error of `slot`, rounded up.
-    pub fn set(&mut self, slot: u32, error: f64) {
+    pub(crate) fn set(&mut self, slot: u32, error: f64) {
         self.errors[slot as usize] = round_up(error);
     }
 }
 
 /// The least `f32` that is no smaller than `value`.
 #[expect(clippy::cast_possible_truncation, reason = "the rounding is undone in the next line")]
-pub fn round_up(value: f64) -> f32 {
+pub(crate) fn round_up(value: f64) -> f32 {
     let nearest = value as f32;
     if f64::from(nearest) < value { nearest.next_up() } else { nearest }
 }

@@ -21,7 +21,7 @@ pub enum EstimateKind {
 
 /// Estimated errors of the current mesh.
 #[derive(Clone, Debug)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     sampler: Sampler,
     accumulated: Option<Accumulated>,
     removed: Option<RemovedVertices>,
@@ -29,7 +29,7 @@ pub struct Estimate {
 
 /// What a replacement changes.
 #[derive(Clone, Debug)]
-pub struct EstimateChange {
+pub(crate) struct EstimateChange {
     /// e_g1 of the filling's triangles.
     accumulated: Vec<f64>,
     /// Removed vertices and the index of the filling's triangle that each goes to.
@@ -38,7 +38,7 @@ pub struct EstimateChange {
 
 impl Estimate {
     /// The estimate at the start, when `surface` is the input.
-    pub fn new(kind: EstimateKind, surface: &Surface) -> Self {
+    pub(crate) fn new(kind: EstimateKind, surface: &Surface) -> Self {
         let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
         Self {
             sampler: Sampler::new(surface),
@@ -48,12 +48,12 @@ impl Estimate {
     }
 
     /// The sampler of local errors.
-    pub fn sampler(&self) -> &Sampler {
+    pub(crate) fn sampler(&self) -> &Sampler {
         &self.sampler
     }
 
     /// Errors of replacing the star of `hole` by `filling`. Stops early once a limit is passed.
-    pub fn errors(&self, replacement: Replacement<'_>, limits: Limits) -> Errors {
+    pub(crate) fn errors(&self, replacement: Replacement<'_>, limits: Limits) -> Errors {
         let Replacement { surface, hole, filling } = replacement;
         let mut errors = Errors::default();
         if !hole.closed {
@@ -88,7 +88,7 @@ impl Estimate {
     }
 
     /// What the replacement changes in the estimates.
-    pub fn change(&self, replacement: Replacement<'_>) -> EstimateChange {
+    pub(crate) fn change(&self, replacement: Replacement<'_>) -> EstimateChange {
         let Replacement { surface, hole, filling } = replacement;
         let accumulated =
             (0..filling.triangles.len()).map(|i| self.accumulated_error(hole, filling, i)).collect();
@@ -98,7 +98,7 @@ impl Estimate {
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         if let Some(accumulated) = &mut self.accumulated {
             accumulated.renumber_slots(slots);
         }
@@ -108,7 +108,7 @@ impl Estimate {
     }
 
     /// Carries the estimates over to the filling.
-    pub fn apply(&mut self, hole: &Hole, change: &EstimateChange) {
+    pub(crate) fn apply(&mut self, hole: &Hole, change: &EstimateChange) {
         if let Some(accumulated) = &mut self.accumulated {
             hole.slots
                 .iter()

@@ -2,7 +2,7 @@
 
 /// The largest local and global error that a removal may make now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub(crate) struct Limits {
     /// Limit on the error between the star and its filling.
     pub local: f64,
     /// Limit on the error between the input and the filling.
@@ -22,7 +22,7 @@ impl Limits {
 
 /// Errors that a removal would make, or lower bounds of them once one is above its limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Errors {
+pub(crate) struct Errors {
     /// Error between the star and its filling.
     pub local: f64,
     /// Error between the input and the filling.
@@ -31,7 +31,7 @@ pub struct Errors {
 
 impl Errors {
     /// Whether both errors are within their limits.
-    pub fn within(self, limits: Limits) -> bool {
+    pub(crate) fn within(self, limits: Limits) -> bool {
         self.local <= limits.local && self.global <= limits.global
     }
 }

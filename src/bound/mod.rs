@@ -1,14 +1,14 @@
 //! What a level's error means: the paper's estimates, and the proof.
 
-pub mod accumulated;
-pub mod certified;
-pub mod estimate;
+pub(crate) mod accumulated;
+pub(crate) mod certified;
+pub(crate) mod estimate;
 mod limits;
-pub mod removed;
+pub(crate) mod removed;
 mod replacement;
 
-pub use limits::{Errors, Limits};
-pub use replacement::Replacement;
+pub(crate) use limits::{Errors, Limits};
+pub(crate) use replacement::Replacement;
 
 use crate::mesh::{Hole, Renumbering, Surface, TooMany};
 use certified::{Certified, MapChange, Transfer};
@@ -16,11 +16,11 @@ use estimate::{Estimate, EstimateChange, EstimateKind};
 
 /// An error is followed up to so many times its limit: what a removal needs is then known well
 /// enough for the limits to come, and farther off it does not matter yet.
-pub const REACH: f64 = 2.0;
+pub(crate) const REACH: f64 = 2.0;
 
 /// The error of the current mesh, in one meaning or the other.
 #[derive(Clone, Debug)]
-pub enum GlobalError {
+pub(crate) enum GlobalError {
     /// Proven.
     Certified(Certified),
     /// Estimated as in the paper.
@@ -29,7 +29,7 @@ pub enum GlobalError {
 
 /// What a replacement changes in the errors.
 #[derive(Clone, Debug)]
-pub enum Change {
+pub(crate) enum Change {
     /// In the map of the proof.
     Certified(MapChange),
     /// In the estimates.
@@ -39,7 +39,7 @@ pub enum Change {
 impl GlobalError {
     /// The error at the start, when `surface` is the input but for `rounding`: how far reading it
     /// moved the worst vertex. Without an estimate it is proven.
-    pub fn new(estimate: Option<EstimateKind>, surface: &Surface, rounding: f64) -> Self {
+    pub(crate) fn new(estimate: Option<EstimateKind>, surface: &Surface, rounding: f64) -> Self {
         match estimate {
             None => Self::Certified(Certified::new(surface, rounding)),
             Some(kind) => Self::Estimate(Estimate::new(kind, surface)),
@@ -48,7 +48,7 @@ impl GlobalError {
 
     /// The errors of a replacement and what it changes, without changing it. If the errors are
     /// above the limits, only the errors, or lower bounds of them above the limits.
-    pub fn change(
+    pub(crate) fn change(
         &self,
         replacement: Replacement<'_>,
         limits: Limits,
@@ -73,14 +73,14 @@ impl GlobalError {
     }
 
     /// Gives back memory that finished removals left behind.
-    pub fn compact(&mut self) {
+    pub(crate) fn compact(&mut self) {
         if let Self::Certified(certified) = self {
             certified.compact();
         }
     }
 
     /// Gives every slot its new number; changes found before have the old ones.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         match self {
             Self::Certified(certified) => certified.renumber_slots(slots),
             Self::Estimate(estimate) => estimate.renumber_slots(slots),
@@ -92,7 +92,7 @@ impl GlobalError {
     /// # Errors
     ///
     /// What there would be too many of.
-    pub fn check_room<'a>(
+    pub(crate) fn check_room<'a>(
         &self,
         changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone,
     ) -> Result<(), TooMany> {
@@ -105,7 +105,10 @@ impl GlobalError {
     /// Applies what was found for the replacement of the star of each hole, one after another. No
     /// two change the same star or move the same source edge, and there is
     /// [room](Self::check_room) for them.
-    pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone + Send) {
+    pub(crate) fn apply_all<'a>(
+        &mut self,
+        changes: impl Iterator<Item = (&'a Hole, &'a Change)> + Clone + Send,
+    ) {
         match self {
             Self::Certified(certified) => certified.apply_all(of_map(changes)),
             Self::Estimate(estimate) => {
@@ -121,7 +124,7 @@ impl GlobalError {
 
 impl Change {
     /// Source edges that get another way over the mesh.
-    pub fn moved_edges(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn moved_edges(&self) -> impl Iterator<Item = u32> {
         let chains = match self {
             Self::Certified(change) => change.chains.as_slice(),
             Self::Estimate(_) => &[],

@@ -13,42 +13,42 @@ use crate::mesh::{Filling, Hole, Renumbering};
 /// For every slot the list of removed vertices that belong to its triangle, linked through the
 /// vertices.
 #[derive(Clone, Debug)]
-pub struct RemovedVertices {
+pub(crate) struct RemovedVertices {
     first: Vec<u32>,
     next: Vec<u32>,
 }
 
 impl RemovedVertices {
     /// Empty lists for `n_slots` slots over `n_vertices` vertices.
-    pub fn new(n_slots: usize, n_vertices: usize) -> Self {
+    pub(crate) fn new(n_slots: usize, n_vertices: usize) -> Self {
         Self { first: vec![NO_INDEX; n_slots], next: vec![NO_INDEX; n_vertices] }
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         slots.close_up(&mut self.first);
     }
 
     /// Vertices that belong to `slot`.
-    pub fn of(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn of(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
         let some = |v: u32| (v != NO_INDEX).then_some(v);
         std::iter::successors(some(self.first[slot as usize]), move |&v| some(self.next[v as usize]))
     }
 
     /// Vertices that belong to the star of `hole`, and the one being removed.
-    pub fn of_hole<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = u32> + 'a {
+    pub(crate) fn of_hole<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = u32> + 'a {
         std::iter::once(hole.removed).chain(hole.slots.iter().flat_map(|&slot| self.of(slot)))
     }
 
     /// Empties the lists of the star of `hole`.
-    pub fn clear(&mut self, hole: &Hole) {
+    pub(crate) fn clear(&mut self, hole: &Hole) {
         for &slot in &hole.slots {
             self.first[slot as usize] = NO_INDEX;
         }
     }
 
     /// Gives `v`, which is in no list, to `slot`.
-    pub fn add(&mut self, v: u32, slot: u32) {
+    pub(crate) fn add(&mut self, v: u32, slot: u32) {
         self.next[v as usize] = self.first[slot as usize];
         self.first[slot as usize] = v;
     }
@@ -56,7 +56,7 @@ impl RemovedVertices {
 
 /// The triangle of the filling nearest to `p`, and the squared distance; the first one where
 /// several are as near.
-pub fn nearest(hole: &Hole, filling: &Filling, p: Vector) -> (usize, f64) {
+pub(crate) fn nearest(hole: &Hole, filling: &Filling, p: Vector) -> (usize, f64) {
     (0..filling.triangles.len())
         .map(|i| (i, point_triangle_distance_sq(p, &filling.triangle(hole, i))))
         .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })

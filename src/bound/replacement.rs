@@ -4,7 +4,7 @@ use crate::mesh::{Filling, Hole, Surface};
 
 /// A star about to be replaced by a filling.
 #[derive(Clone, Copy, Debug)]
-pub struct Replacement<'a> {
+pub(crate) struct Replacement<'a> {
     /// The mesh before it.
     pub surface: &'a Surface,
     /// The star.

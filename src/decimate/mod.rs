@@ -4,9 +4,9 @@
 //! (what it is asked for), `state` (the mesh in the middle of its decimation, with all that is kept
 //! beside it) and `run` (the driver); the others are named for what is done to the state.
 
-pub mod fusion;
-pub mod jade;
-pub mod progressive;
+pub(crate) mod fusion;
+pub(crate) mod jade;
+pub(crate) mod progressive;
 
 use crate::history::History;
 use crate::mesh::TooMany;

@@ -3,7 +3,7 @@
 use super::vector::{Vector, cross, dot, sub};
 
 /// Barycentric coordinates of a point in a tetrahedron; `None` for one without volume.
-pub fn barycentric(point: Vector, [a, b, c, d]: [Vector; 4]) -> Option<[f64; 4]> {
+pub(crate) fn barycentric(point: Vector, [a, b, c, d]: [Vector; 4]) -> Option<[f64; 4]> {
     let (b, c, d, p) = (sub(b, a), sub(c, a), sub(d, a), sub(point, a));
     let volume = dot(b, cross(c, d));
     if volume == 0.0 {

@@ -4,7 +4,7 @@ use super::vector::{Vector, add, length, max, midpoint, min, sub, widen};
 
 /// A box with sides along the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// Least coordinates.
     pub low: Vector,
     /// Largest coordinates.
@@ -13,16 +13,16 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box that holds nothing.
-    pub const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+    pub(crate) const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
     /// Smallest box around `points`. O(n).
     #[inline]
-    pub fn around(points: impl IntoIterator<Item = Vector>) -> Self {
+    pub(crate) fn around(points: impl IntoIterator<Item = Vector>) -> Self {
         points.into_iter().fold(Self::EMPTY, |bounds, p| bounds.union(&Self { low: p, high: p }))
     }
 
     /// Smallest box around `positions`; a point at the origin if there are none. O(n).
-    pub fn around_positions(positions: &[[f32; 3]]) -> Self {
+    pub(crate) fn around_positions(positions: &[[f32; 3]]) -> Self {
         if positions.is_empty() {
             return Self { low: [0.0; 3], high: [0.0; 3] };
         }
@@ -31,43 +31,43 @@ impl Bounds {
 
     /// Smallest box around two.
     #[inline(always)]
-    pub fn union(&self, other: &Self) -> Self {
+    pub(crate) fn union(&self, other: &Self) -> Self {
         Self { low: min(self.low, other.low), high: max(self.high, other.high) }
     }
 
     /// Lengths of the sides; 0 for the empty box.
     #[inline(always)]
-    pub fn extent(&self) -> Vector {
+    pub(crate) fn extent(&self) -> Vector {
         max(sub(self.high, self.low), [0.0; 3])
     }
 
     /// Length of the diagonal.
-    pub fn diagonal(&self) -> f64 {
+    pub(crate) fn diagonal(&self) -> f64 {
         length(self.extent())
     }
 
     /// Half the surface area.
     #[inline(always)]
-    pub fn half_area(&self) -> f64 {
+    pub(crate) fn half_area(&self) -> f64 {
         let [x, y, z] = self.extent();
         x * y + y * z + z * x
     }
 
     /// The middle.
-    pub fn center(&self) -> Vector {
+    pub(crate) fn center(&self) -> Vector {
         midpoint(self.low, self.high)
     }
 
     /// Twice the middle.
     #[inline(always)]
-    pub fn center_twice(&self) -> Vector {
+    pub(crate) fn center_twice(&self) -> Vector {
         add(self.low, self.high)
     }
 
     /// Least and largest coordinates in `f32`: exact for a box around positions, zero for the empty
     /// box.
     #[expect(clippy::cast_possible_truncation, reason = "they were f32 before")]
-    pub fn to_f32(self) -> ([f32; 3], [f32; 3]) {
+    pub(crate) fn to_f32(self) -> ([f32; 3], [f32; 3]) {
         if self == Self::EMPTY {
             return ([0.0; 3], [0.0; 3]);
         }
@@ -76,7 +76,7 @@ impl Bounds {
 }
 
 /// Length of the diagonal of the box around `positions`; zero if there are none. O(n).
-pub fn bounding_diagonal(positions: &[[f32; 3]]) -> f64 {
+pub(crate) fn bounding_diagonal(positions: &[[f32; 3]]) -> f64 {
     Bounds::around_positions(positions).diagonal()
 }
 

@@ -19,10 +19,10 @@
 use super::vector::{Vector, add_scaled, cross, dot, length_sq, sub};
 
 /// Corners of a triangle.
-pub type Triangle = [Vector; 3];
+pub(crate) type Triangle = [Vector; 3];
 
 /// End points of a segment.
-pub type Segment = [Vector; 2];
+pub(crate) type Segment = [Vector; 2];
 
 /// If the angle at the first corner of a triangle has a squared sine below this, its edges are
 /// compared too, even if the foot of the perpendicular seems to be inside.
@@ -30,21 +30,21 @@ const NEEDLE_SINE_SQ: f64 = 1e-6;
 
 /// Squared distance between a point and a segment.
 #[inline(always)]
-pub fn point_segment_distance_sq(p: Vector, [a, b]: Segment) -> f64 {
+pub(crate) fn point_segment_distance_sq(p: Vector, [a, b]: Segment) -> f64 {
     let (ab, ap) = (sub(b, a), sub(p, a));
     length_sq(add_scaled(ap, -foot_on_edge(ab, ap), ab))
 }
 
 /// Point of a segment that is closest to `p`.
 #[inline(always)]
-pub fn closest_on_segment(p: Vector, [a, b]: Segment) -> Vector {
+pub(crate) fn closest_on_segment(p: Vector, [a, b]: Segment) -> Vector {
     let ab = sub(b, a);
     add_scaled(a, foot_on_edge(ab, sub(p, a)), ab)
 }
 
 /// Squared distance between a point and a triangle.
 #[inline(always)]
-pub fn point_triangle_distance_sq(p: Vector, [a, b, c]: &Triangle) -> f64 {
+pub(crate) fn point_triangle_distance_sq(p: Vector, [a, b, c]: &Triangle) -> f64 {
     let (ab, ac, ap) = (sub(*b, *a), sub(*c, *a), sub(p, *a));
     let foot = foot_inside(ab, ac, ap);
     let inside_sq = match foot {
@@ -82,7 +82,7 @@ fn closest_on_triangle(p: Vector, triangle: &Triangle) -> Vector {
 /// Barycentric weights, none negative and with sum 1, of the point of a triangle that is closest to
 /// `p`.
 #[inline]
-pub fn closest_weights(p: Vector, [a, b, c]: &Triangle) -> [f64; 3] {
+pub(crate) fn closest_weights(p: Vector, [a, b, c]: &Triangle) -> [f64; 3] {
     let (ab, ac, ap) = (sub(*b, *a), sub(*c, *a), sub(p, *a));
     let mut best_sq = f64::INFINITY;
     let mut weights = [1.0, 0.0, 0.0];
@@ -112,7 +112,7 @@ pub fn closest_weights(p: Vector, [a, b, c]: &Triangle) -> [f64; 3] {
 
 /// Squared distance between two segments.
 #[inline(always)]
-pub fn segment_segment_distance_sq(first: Segment, second: Segment) -> f64 {
+pub(crate) fn segment_segment_distance_sq(first: Segment, second: Segment) -> f64 {
     let ends_sq = point_segment_distance_sq(first[0], second)
         .min(point_segment_distance_sq(first[1], second))
         .min(point_segment_distance_sq(second[0], first))
@@ -192,7 +192,7 @@ fn gap([a, b]: Segment, [c, d]: Segment, s: f64, t: f64) -> Vector {
 }
 
 /// Parameter on the line of `first`, unclamped at best effort, at which it is nearest to `second`.
-pub fn nearest_parameter([a, b]: Segment, [c, d]: Segment) -> f64 {
+pub(crate) fn nearest_parameter([a, b]: Segment, [c, d]: Segment) -> f64 {
     let (u, v, w) = (sub(b, a), sub(d, c), sub(a, c));
     let (uu, uv, vv) = (length_sq(u), dot(u, v), length_sq(v));
     let (uw, vw) = (dot(u, w), dot(v, w));

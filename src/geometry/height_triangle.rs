@@ -10,7 +10,7 @@ const SOUND_SINE_SQ: f64 = 1e-6;
 /// A triangle with its normal. Cheaper to make than a
 /// [`PreparedTriangle`](super::prepared::PreparedTriangle), which pays for itself with many points.
 #[derive(Clone, Copy, Debug)]
-pub struct HeightTriangle {
+pub(crate) struct HeightTriangle {
     corners: Triangle,
     edges: [Vector; 2],
     /// As long as twice the area.
@@ -24,7 +24,7 @@ pub struct HeightTriangle {
 impl HeightTriangle {
     /// Prepares a triangle.
     #[inline(always)]
-    pub fn new(corners: Triangle) -> Self {
+    pub(crate) fn new(corners: Triangle) -> Self {
         let [ab, ac] = [sub(corners[1], corners[0]), sub(corners[2], corners[0])];
         let normal = cross(ab, ac);
         let normal_sq = length_sq(normal);
@@ -33,7 +33,7 @@ impl HeightTriangle {
     }
 
     /// Whether the triangle's aspect, `4 sqrt(3) area / sum of squared edges`, is below `least`.
-    pub fn is_thinner(&self, least: f64) -> bool {
+    pub(crate) fn is_thinner(&self, least: f64) -> bool {
         let [ab, ac] = self.edges;
         let edges_sq = length_sq(ab) + distance_sq(self.corners[1], self.corners[2]) + length_sq(ac);
         12.0 * self.normal_sq < (least * edges_sq).powi(2) || edges_sq <= 0.0
@@ -41,7 +41,7 @@ impl HeightTriangle {
 
     /// Whether heights over it are as exact as other distances: to a dozen digits of the largest
     /// coordinate.
-    pub fn is_sound(&self) -> bool {
+    pub(crate) fn is_sound(&self) -> bool {
         let [ab, ac] = self.edges;
         self.normal_sq > SOUND_SINE_SQ * length_sq(ab) * length_sq(ac)
     }
@@ -49,7 +49,7 @@ impl HeightTriangle {
     /// Squared height of a point over the triangle, which is its squared distance; `None` if the
     /// foot of the perpendicular is outside.
     #[inline(always)]
-    pub fn height_sq(&self, p: Vector) -> Option<f64> {
+    pub(crate) fn height_sq(&self, p: Vector) -> Option<f64> {
         let ap = sub(p, self.corners[0]);
         let [v, w] = self.across.map(|axis| dot(ap, axis));
         (v >= 0.0 && w >= 0.0 && v + w <= self.normal_sq).then(|| {
@@ -61,7 +61,7 @@ impl HeightTriangle {
     /// Squared distance of a point. Of a triangle that is not [sound](Self::is_sound) it is good
     /// enough to choose by, not to prove with.
     #[inline(always)]
-    pub fn distance_sq(&self, p: Vector) -> f64 {
+    pub(crate) fn distance_sq(&self, p: Vector) -> f64 {
         self.height_sq(p).unwrap_or_else(|| point_triangle_distance_sq(p, &self.corners))
     }
 }

@@ -1,10 +1,10 @@
 //! Vectors and exact distances between points, segments and triangles, in `f64`.
 
-pub mod barycentric;
-pub mod bounds;
-pub mod distance;
-pub mod height_triangle;
-pub mod morton;
-pub mod prepared;
-pub mod projection;
-pub mod vector;
+pub(crate) mod barycentric;
+pub(crate) mod bounds;
+pub(crate) mod distance;
+pub(crate) mod height_triangle;
+pub(crate) mod morton;
+pub(crate) mod prepared;
+pub(crate) mod projection;
+pub(crate) mod vector;

@@ -7,7 +7,7 @@ use super::bounds::Bounds;
 
 /// A grid of 2^21 cells along each axis around a mesh. The cells are numbered along a Morton curve.
 #[derive(Clone, Copy, Debug)]
-pub struct Grid {
+pub(crate) struct Grid {
     min: [f64; 3],
     cells_per_unit: f64,
 }
@@ -16,19 +16,19 @@ impl Grid {
     const CELLS: f64 = 2_097_151.0;
 
     /// The grid around `positions`.
-    pub fn around(positions: &[[f32; 3]]) -> Self {
+    pub(crate) fn around(positions: &[[f32; 3]]) -> Self {
         let bounds = Bounds::around_positions(positions);
         let side = bounds.extent().into_iter().fold(0.0, f64::max);
         Self { min: bounds.low, cells_per_unit: if side > 0.0 { Self::CELLS / side } else { 0.0 } }
     }
 
     /// Number of the cell that holds a position.
-    pub fn morton(&self, position: [f32; 3]) -> u64 {
+    pub(crate) fn morton(&self, position: [f32; 3]) -> u64 {
         self.cell(position.map(f64::from))
     }
 
     /// Number of the cell that holds the centroid of a simplex.
-    pub fn morton_of_centroid<const CORNERS: usize>(
+    pub(crate) fn morton_of_centroid<const CORNERS: usize>(
         &self,
         positions: &[[f32; 3]],
         simplex: [u32; CORNERS],

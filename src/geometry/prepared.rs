@@ -23,7 +23,7 @@ use super::vector::{Vector, add_scaled, cross, dot, length, length_sq, scale, su
 ///     a------------------b---- x
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct PreparedTriangle {
+pub(crate) struct PreparedTriangle {
     /// Start of the longest edge.
     a: Vector,
     /// Unit vectors along the longest edge, across it in the plane, and out of the plane.
@@ -46,7 +46,7 @@ struct Edge {
 
 impl PreparedTriangle {
     /// Prepares a triangle, degenerate or not.
-    pub fn new(triangle: &Triangle) -> Self {
+    pub(crate) fn new(triangle: &Triangle) -> Self {
         let [p, q, r] = *triangle;
         let edges_sq = [(p, q), (q, r), (r, p)].map(|(from, to)| length_sq(sub(to, from)));
         let longest = (0..3).fold(0, |longest, i| if edges_sq[i] > edges_sq[longest] { i } else { longest });
@@ -67,7 +67,7 @@ impl PreparedTriangle {
 
     /// Squared distance of a point. About 8 ns.
     #[inline(always)]
-    pub fn distance_sq(&self, p: Vector) -> f64 {
+    pub(crate) fn distance_sq(&self, p: Vector) -> f64 {
         let from_a = sub(p, self.a);
         let [x, y, height] = self.frame.map(|axis| dot(from_a, axis));
         // For each edge: how far outside of it the point is, and how far from it.
@@ -87,7 +87,7 @@ impl PreparedTriangle {
     ///
     /// Shapes: all four slices have the same length. About 3 ns per point.
     #[inline(always)]
-    pub fn distances_sq(&self, [x, y, z]: [&[f64]; 3], distances_sq: &mut [f64]) {
+    pub(crate) fn distances_sq(&self, [x, y, z]: [&[f64]; 3], distances_sq: &mut [f64]) {
         for (((x, y), z), distance_sq) in x.iter().zip(y).zip(z).zip(distances_sq) {
             *distance_sq = self.distance_sq([*x, *y, *z]);
         }
@@ -143,12 +143,12 @@ fn perpendicular(v: Vector) -> Vector {
 
 /// `f64::max` in one instruction, for numbers that are never NaN.
 #[inline(always)]
-pub fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
 /// `f64::min` in one instruction, for numbers that are never NaN.
 #[inline(always)]
-pub fn smaller(a: f64, b: f64) -> f64 {
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }

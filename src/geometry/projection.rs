@@ -4,7 +4,7 @@
 use crate::geometry::vector::{Vector, cross, dot, length_sq, scale, sub};
 
 /// A point of a projected border.
-pub type Point2 = [f64; 2];
+pub(crate) type Point2 = [f64; 2];
 
 const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const T: f64 = 0.577_350_269_189_625_8;
@@ -28,7 +28,7 @@ const FIXED_NORMALS: [Vector; 13] = [
 ];
 
 /// Normals of the fourteen planes: the average plane first, unless the star has no area.
-pub fn plane_normals(average: Vector) -> impl Iterator<Item = Vector> {
+pub(crate) fn plane_normals(average: Vector) -> impl Iterator<Item = Vector> {
     let size_sq = length_sq(average);
     let unit = (size_sq > 0.0 && size_sq.is_finite()).then(|| scale(average, 1.0 / size_sq.sqrt()));
     unit.into_iter().chain(FIXED_NORMALS)
@@ -36,13 +36,13 @@ pub fn plane_normals(average: Vector) -> impl Iterator<Item = Vector> {
 
 /// A plane through the origin with two axes, right-handed with its normal.
 #[derive(Clone, Copy, Debug)]
-pub struct ProjectionPlane {
+pub(crate) struct ProjectionPlane {
     axes: [Vector; 2],
 }
 
 impl ProjectionPlane {
     /// The plane with the given unit normal.
-    pub fn new(normal: Vector) -> Self {
+    pub(crate) fn new(normal: Vector) -> Self {
         let [x, y, z] = normal.map(f64::abs);
         let other = if x <= y && x <= z {
             [1.0, 0.0, 0.0]
@@ -58,7 +58,7 @@ impl ProjectionPlane {
 
     /// Coordinates of `p` in the plane, relative to `origin`.
     #[inline]
-    pub fn project(&self, p: Vector, origin: Vector) -> Point2 {
+    pub(crate) fn project(&self, p: Vector, origin: Vector) -> Point2 {
         let d = sub(p, origin);
         [dot(d, self.axes[0]), dot(d, self.axes[1])]
     }
@@ -66,18 +66,18 @@ impl ProjectionPlane {
 
 /// Twice the signed area of the triangle `a b c`: positive if it turns left.
 #[inline]
-pub fn turn(a: Point2, b: Point2, c: Point2) -> f64 {
+pub(crate) fn turn(a: Point2, b: Point2, c: Point2) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Twice the signed area of a polygon.
-pub fn polygon_area(polygon: &[Point2]) -> f64 {
+pub(crate) fn polygon_area(polygon: &[Point2]) -> f64 {
     let Some((&first, rest)) = polygon.split_first() else { return 0.0 };
     rest.windows(2).map(|pair| turn(first, pair[0], pair[1])).sum()
 }
 
 /// Whether no two edges of the polygon meet, apart from neighbours at their common corner. O(n^2).
-pub fn is_simple(polygon: &[Point2]) -> bool {
+pub(crate) fn is_simple(polygon: &[Point2]) -> bool {
     let n = polygon.len();
     let edge = |i: usize| (polygon[i], polygon[if i + 1 == n { 0 } else { i + 1 }]);
     (0..n).all(|i| (i + 2..n).filter(|&j| !(i == 0 && j + 1 == n)).all(|j| !segments_meet(edge(i), edge(j))))

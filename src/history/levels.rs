@@ -11,11 +11,11 @@ use super::{History, HistoryError, NEVER};
 use crate::tree::Lifetime;
 
 /// Each level of a file has about this part of the simplices of the level before.
-pub const LEVEL_RATIO: f64 = 63.0 / 64.0;
+pub(super) const LEVEL_RATIO: f64 = 63.0 / 64.0;
 
 /// The step before an error of so many times its own is kept whatever its interval: an error inflection point (W. J. Schroeder, "A
 /// topology modifying progressive decimation algorithm", 1997, section 4.8), a natural place to stop.
-pub const LEAP_RATIO: f64 = 10.0;
+pub(super) const LEAP_RATIO: f64 = 10.0;
 
 /// Which steps a file keeps as levels.
 ///

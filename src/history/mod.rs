@@ -13,7 +13,7 @@ mod recorder;
 
 pub use check::HistoryError;
 pub use levels::Levels;
-pub use recorder::Recorder;
+pub(crate) use recorder::Recorder;
 
 /// Death of a simplex that is still alive when the decimator ends.
 pub const NEVER: u32 = u32::MAX;

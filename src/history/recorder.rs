@@ -11,7 +11,7 @@ const FARTHEST: f64 = 4.0 * f32::MAX as f64;
 ///
 /// Memory: 4 bytes per slot, some 7 per dead triangle, and 16 each time the error rises.
 #[derive(Clone, Debug)]
-pub struct Recorder<const CORNERS: usize = 3> {
+pub(crate) struct Recorder<const CORNERS: usize = 3> {
     deaths: Deaths<CORNERS>,
     birth_in_slot: Vec<u32>,
     /// Steps at which the error rises, and the error from there on; step 0 first.
@@ -25,7 +25,7 @@ pub struct Recorder<const CORNERS: usize = 3> {
 impl<const CORNERS: usize> Recorder<CORNERS> {
     /// A recorder for an input of `n_slots` simplices over `n_vertices` vertices, at step 0 with
     /// the given error.
-    pub fn new(n_slots: usize, n_vertices: usize, error: f64) -> Self {
+    pub(crate) fn new(n_slots: usize, n_vertices: usize, error: f64) -> Self {
         Self {
             deaths: Deaths::new(),
             birth_in_slot: vec![0; n_slots],
@@ -39,7 +39,7 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
     /// Starts the next step. Its error is `error`, or that of the last step if that is larger. NaN
     /// and finite values beyond the largest possible distance are clamped to it; an infinite error
     /// says that there is no bound.
-    pub fn step(&mut self, error: f64) {
+    pub(crate) fn step(&mut self, error: f64) {
         self.now += 1;
         let error = if error == f64::INFINITY { error } else { error.min(FARTHEST) };
         if error > self.error() {
@@ -48,33 +48,33 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
     }
 
     /// Number of steps so far, which is the number of the current step.
-    pub fn n_steps(&self) -> u32 {
+    pub(crate) fn n_steps(&self) -> u32 {
         self.now
     }
 
     /// Error of the current step.
-    pub fn error(&self) -> f64 {
+    pub(crate) fn error(&self) -> f64 {
         self.rises.last().map_or(0.0, |&(_, error)| error)
     }
 
     /// The simplex in `slot` dies at this step.
-    pub fn death(&mut self, slot: u32, simplex: [u32; CORNERS]) {
+    pub(crate) fn death(&mut self, slot: u32, simplex: [u32; CORNERS]) {
         self.deaths.push(Record { simplex, birth: self.birth_in_slot[slot as usize], death: self.now });
     }
 
     /// A simplex is born into `slot` at this step.
-    pub fn birth(&mut self, slot: u32) {
+    pub(crate) fn birth(&mut self, slot: u32) {
         self.birth_in_slot[slot as usize] = self.now;
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         slots.close_up(&mut self.birth_in_slot);
     }
 
     /// Gives birth to a vertex at this step and returns its index, the next free one. It dies like
     /// any other vertex.
-    pub fn vertex(&mut self) -> u32 {
+    pub(crate) fn vertex(&mut self) -> u32 {
         #[expect(
             clippy::cast_possible_truncation,
             reason = "`History::check` refuses more vertices than u32 counts"
@@ -86,7 +86,7 @@ impl<const CORNERS: usize> Recorder<CORNERS> {
 
     /// The whole history, given the simplices that are alive now and their slots. A vertex dies
     /// with the last simplex that uses it.
-    pub fn finish(self, alive: &[(u32, [u32; CORNERS])]) -> History<CORNERS> {
+    pub(crate) fn finish(self, alive: &[(u32, [u32; CORNERS])]) -> History<CORNERS> {
         let Self { deaths, birth_in_slot, rises, now, n_vertices_in, vertex_births } = self;
         let n_simplices = deaths.len() + alive.len();
         let mut history = History {

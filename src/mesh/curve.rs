@@ -5,7 +5,7 @@ use super::{Numbering, Repaired};
 
 /// Renumbers vertices along a Morton curve, and triangles by their least vertex. The mesh is the
 /// same: a decimator that walks over it misses the cache less. O(n log n).
-pub fn along_a_curve(Repaired { mut mesh, points, looks, dropped, report }: Repaired) -> Repaired {
+pub(crate) fn along_a_curve(Repaired { mut mesh, points, looks, dropped, report }: Repaired) -> Repaired {
     // Vertices of one point keep their order: its first one stays the first.
     let numbering = Numbering::along_curve(&mesh.positions);
     numbering.sort_triangles(&mut mesh.triangles);

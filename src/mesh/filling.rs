@@ -7,7 +7,7 @@ use crate::geometry::vector::Vector;
 /// Triangles over ring indices, each in the order of the ring and so oriented like the star it
 /// replaces.
 #[derive(Clone, Debug, Default)]
-pub struct Filling {
+pub(crate) struct Filling {
     /// Ring indices, three per triangle.
     pub triangles: Vec<[u8; 3]>,
     /// How many of them make up the first part, when the hole was split along a feature line. All
@@ -20,23 +20,23 @@ pub struct Filling {
 
 impl Filling {
     /// Corner positions of triangle `i`.
-    pub fn triangle(&self, hole: &Hole, i: usize) -> [Vector; 3] {
+    pub(crate) fn triangle(&self, hole: &Hole, i: usize) -> [Vector; 3] {
         self.triangles[i].map(|corner| hole.points[corner as usize])
     }
 
     /// Vertices of triangle `i`.
-    pub fn corners(&self, hole: &Hole, i: usize) -> [u32; 3] {
+    pub(crate) fn corners(&self, hole: &Hole, i: usize) -> [u32; 3] {
         self.triangles[i].map(|corner| hole.ring[corner as usize])
     }
 
     /// Ring index at which the part of triangle `i` starts.
-    pub fn part_start(&self, i: usize) -> u8 {
+    pub(crate) fn part_start(&self, i: usize) -> u8 {
         self.part_starts[usize::from(i >= self.n_first_part)]
     }
 
     /// Edges that are not on the ring, as pairs of ring indices with the lower first; an edge
     /// between two triangles comes once. Includes the new boundary edge of a half disk.
-    pub fn inner_edges<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = [u8; 2]> + 'a {
+    pub(crate) fn inner_edges<'a>(&'a self, hole: &'a Hole) -> impl Iterator<Item = [u8; 2]> + 'a {
         self.triangles.iter().flat_map(move |&[a, b, c]| {
             [[a, b], [b, c], [c, a]].into_iter().filter_map(move |[i, j]| {
                 // Two triangles run along their common edge in opposite directions, and only one
@@ -53,7 +53,7 @@ impl Filling {
 impl Surface {
     /// Puts a filling in the place of the star of `hole`: its triangles, fewer than the star has,
     /// go into the first slots of the star. O(sum of the valences around the hole).
-    pub fn fill(&mut self, hole: &Hole, filling: &Filling) {
+    pub(crate) fn fill(&mut self, hole: &Hole, filling: &Filling) {
         let n_new = filling.triangles.len();
         debug_assert!(n_new < hole.slots.len());
         let new = |i: usize| if i < n_new { filling.corners(hole, i) } else { GONE };

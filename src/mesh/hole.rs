@@ -12,12 +12,12 @@ use crate::geometry::vector::{Vector, add, cross, sub};
 
 /// Most triangles of a star that may be removed; larger ones wait until neighbours have gone. A
 /// `u8` ring index holds as many.
-pub const MAX_VALENCE: usize = 64;
+pub(crate) const MAX_VALENCE: usize = 64;
 
 /// A vertex and its star, ordered. Reused from vertex to vertex, so that nothing is allocated per
 /// candidate.
 #[derive(Clone, Debug, Default)]
-pub struct Hole {
+pub(crate) struct Hole {
     /// The vertex to be removed.
     pub removed: u32,
     /// Its position.
@@ -44,7 +44,7 @@ pub(crate) struct Spoke {
 
 /// Why a vertex has no hole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoHole {
+pub(crate) enum NoHole {
     /// The star is not a disk or half disk of consistently oriented triangles, or is empty.
     Complex,
     /// More than [`MAX_VALENCE`] triangles.
@@ -53,7 +53,7 @@ pub enum NoHole {
 
 impl Hole {
     /// Orders the star of `v`. O(valence^2), valence at most [`MAX_VALENCE`].
-    pub fn gather(&mut self, surface: &Surface, v: u32) -> Result<(), NoHole> {
+    pub(crate) fn gather(&mut self, surface: &Surface, v: u32) -> Result<(), NoHole> {
         let star = surface.star(v);
         if star.len() > MAX_VALENCE {
             return Err(NoHole::TooLarge);
@@ -119,24 +119,24 @@ impl Hole {
     }
 
     /// Vertices of the ring.
-    pub fn n_ring(&self) -> usize {
+    pub(crate) fn n_ring(&self) -> usize {
         self.ring.len()
     }
 
     /// The ring index after `i`, around the hole.
-    pub fn next(&self, i: usize) -> usize {
+    pub(crate) fn next(&self, i: usize) -> usize {
         if i + 1 == self.ring.len() { 0 } else { i + 1 }
     }
 
     /// Slot of the star's triangle that follows ring vertex `i`; the last one at the end of a
     /// chain.
-    pub fn slot_after(&self, i: usize) -> u32 {
+    pub(crate) fn slot_after(&self, i: usize) -> u32 {
         self.slots[i.min(self.slots.len() - 1)]
     }
 
     /// Slot of the star's triangle that leads up to ring vertex `i`; the first one at the start of
     /// a chain.
-    pub fn slot_before(&self, i: usize) -> u32 {
+    pub(crate) fn slot_before(&self, i: usize) -> u32 {
         self.slots[if i > 0 {
             i - 1
         } else if self.closed {
@@ -147,18 +147,18 @@ impl Hole {
     }
 
     /// Corner positions of the star's `i`-th triangle.
-    pub fn triangle(&self, i: usize) -> [Vector; 3] {
+    pub(crate) fn triangle(&self, i: usize) -> [Vector; 3] {
         [self.apex, self.points[i], self.points[self.next(i)]]
     }
 
     /// Normal of the star's `i`-th triangle, as long as twice its area.
-    pub fn normal(&self, i: usize) -> Vector {
+    pub(crate) fn normal(&self, i: usize) -> Vector {
         let [a, b, c] = self.triangle(i);
         cross(sub(b, a), sub(c, a))
     }
 
     /// Area-weighted normal of the star: the normal of the average plane, of any length.
-    pub fn average_normal(&self) -> Vector {
+    pub(crate) fn average_normal(&self) -> Vector {
         let mut sum = [0.0; 3];
         for i in 0..self.slots.len() {
             sum = add(sum, self.normal(i));
@@ -167,7 +167,7 @@ impl Hole {
     }
 
     /// Whether the ring vertices `i` and `j` are neighbours on the ring by an edge that exists.
-    pub fn is_ring_edge(&self, i: usize, j: usize) -> bool {
+    pub(crate) fn is_ring_edge(&self, i: usize, j: usize) -> bool {
         let (low, high) = (i.min(j), i.max(j));
         high == low + 1 || (self.closed && low == 0 && high + 1 == self.ring.len())
     }

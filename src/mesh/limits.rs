@@ -7,13 +7,13 @@
 //! with their limit before each change.
 
 /// Most vertices that are accepted.
-pub const MAX_VERTICES: usize = (u32::MAX / 2) as usize;
+pub(super) const MAX_VERTICES: usize = (u32::MAX / 2) as usize;
 
 /// Most triangles or tetrahedra that are accepted.
-pub const MAX_SIMPLICES: usize = (u32::MAX / 8) as usize;
+pub(super) const MAX_SIMPLICES: usize = (u32::MAX / 8) as usize;
 
 /// Most entries of a pool whose places are `u32`; the last number stands for no place.
-pub const MAX_PLACES: usize = (u32::MAX - 1) as usize;
+pub(super) const MAX_PLACES: usize = (u32::MAX - 1) as usize;
 
 /// A count beyond its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct TooMany {
 /// # Errors
 ///
 /// The first count that is too large.
-pub fn check_counts(n_vertices: usize, n_simplices: usize) -> Result<(), TooMany> {
+pub(crate) fn check_counts(n_vertices: usize, n_simplices: usize) -> Result<(), TooMany> {
     check_count("vertices", n_vertices, MAX_VERTICES)?;
     check_count("simplices", n_simplices, MAX_SIMPLICES)
 }
@@ -41,7 +41,7 @@ pub fn check_counts(n_vertices: usize, n_simplices: usize) -> Result<(), TooMany
 /// # Errors
 ///
 /// `what` it holds, and how many there would be.
-pub fn check_places(what: &'static str, n_entries: usize, n_more: usize) -> Result<(), TooMany> {
+pub(crate) fn check_places(what: &'static str, n_entries: usize, n_more: usize) -> Result<(), TooMany> {
     check_count(what, n_entries.saturating_add(n_more), MAX_PLACES)
 }
 

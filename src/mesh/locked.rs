@@ -5,13 +5,13 @@
 
 /// A bit per vertex; none is locked where there is no bit.
 #[derive(Clone, Debug, Default)]
-pub struct Locked {
+pub(crate) struct Locked {
     bits: Vec<u64>,
 }
 
 impl Locked {
     /// The vertices on the boundary: those with an edge that has one triangle. O(n log n).
-    pub fn boundary_of(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]>) -> Self {
+    pub(crate) fn boundary_of(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]>) -> Self {
         let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
         let mut edges: Vec<[u32; 2]> = triangles.flat_map(sides).collect();
         edges.sort_unstable();
@@ -23,19 +23,19 @@ impl Locked {
 
     /// Whether no vertex is locked.
     #[inline]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.bits.is_empty()
     }
 
     /// Whether vertex `v` is locked.
     #[inline]
-    pub fn has(&self, v: u32) -> bool {
+    pub(crate) fn has(&self, v: u32) -> bool {
         self.bits.get(v as usize / 64).is_some_and(|bits| bits >> (v % 64) & 1 == 1)
     }
 
     /// Whether both ends of an edge are locked.
     #[inline]
-    pub fn has_both(&self, [a, b]: [u32; 2]) -> bool {
+    pub(crate) fn has_both(&self, [a, b]: [u32; 2]) -> bool {
         self.has(a) && self.has(b)
     }
 }

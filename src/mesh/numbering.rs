@@ -12,7 +12,7 @@ use rayon::prelude::*;
 ///
 /// Memory: 8 bytes per vertex; 16 more while it is made.
 #[derive(Clone, Debug)]
-pub struct Numbering {
+pub(crate) struct Numbering {
     /// Vertex at each place.
     vertices: Vec<u32>,
     /// Place of each vertex.
@@ -21,7 +21,7 @@ pub struct Numbering {
 
 impl Numbering {
     /// Numbers vertices by their cells on the curve, ties in the order of the mesh. O(n log n).
-    pub fn along_curve(positions: &[[f32; 3]]) -> Self {
+    pub(crate) fn along_curve(positions: &[[f32; 3]]) -> Self {
         let grid = Grid::around(positions);
         let mut keys: Vec<(u64, u32)> =
             (0..).zip(positions).map(|(vertex, &position)| (grid.morton(position), vertex)).collect();
@@ -36,27 +36,27 @@ impl Numbering {
     }
 
     /// Place of `vertex`.
-    pub fn place(&self, vertex: u32) -> u32 {
+    pub(crate) fn place(&self, vertex: u32) -> u32 {
         self.places[vertex as usize]
     }
 
     /// Sorts triangles of vertices by their first corner along the curve. O(n log n).
-    pub fn sort_triangles(&self, triangles: &mut [[u32; 3]]) {
+    pub(crate) fn sort_triangles(&self, triangles: &mut [[u32; 3]]) {
         triangles.par_sort_by_key(|corners| corners.map(|vertex| self.place(vertex)).into_iter().min());
     }
 
     /// Vertex at each place.
-    pub fn vertices(&self) -> &[u32] {
+    pub(crate) fn vertices(&self) -> &[u32] {
         &self.vertices
     }
 
     /// Vertex at each place.
-    pub fn into_vertices(self) -> Vec<u32> {
+    pub(crate) fn into_vertices(self) -> Vec<u32> {
         self.vertices
     }
 
     /// What belongs to each vertex, in the order of the places.
-    pub fn arrange<T: Copy>(&self, of_vertices: &[T]) -> Vec<T> {
+    pub(crate) fn arrange<T: Copy>(&self, of_vertices: &[T]) -> Vec<T> {
         self.vertices.iter().map(|&vertex| of_vertices[vertex as usize]).collect()
     }
 }

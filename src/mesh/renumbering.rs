@@ -10,7 +10,7 @@ use crate::flat::NO_INDEX;
 ///
 /// Memory: 4 bytes per slot.
 #[derive(Clone, Debug)]
-pub struct Renumbering {
+pub(crate) struct Renumbering {
     /// New number of each slot; [`NO_INDEX`] for the empty ones.
     places: Vec<u32>,
     n_used: usize,
@@ -19,7 +19,7 @@ pub struct Renumbering {
 impl Renumbering {
     /// Numbers the slots for which `are_used` is true, at most `u32::MAX` of them.
     /// O(slots).
-    pub fn new(are_used: impl Iterator<Item = bool>) -> Self {
+    pub(crate) fn new(are_used: impl Iterator<Item = bool>) -> Self {
         let mut next = 0;
         let mut place = |is_used| {
             let place = next;
@@ -32,13 +32,13 @@ impl Renumbering {
 
     /// New number of a slot in use.
     #[inline]
-    pub fn place(&self, slot: u32) -> u32 {
+    pub(crate) fn place(&self, slot: u32) -> u32 {
         debug_assert_ne!(self.places[slot as usize], NO_INDEX, "nothing names an empty slot");
         self.places[slot as usize]
     }
 
     /// Keeps what belongs to slots in use, and gives back the memory of the rest.
-    pub fn close_up<T: Copy>(&self, of_slots: &mut Vec<T>) {
+    pub(crate) fn close_up<T: Copy>(&self, of_slots: &mut Vec<T>) {
         for (slot, &place) in self.places.iter().enumerate().filter(|&(_, &place)| place != NO_INDEX) {
             of_slots[place as usize] = of_slots[slot];
         }

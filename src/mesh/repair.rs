@@ -53,7 +53,7 @@ pub struct RepairReport {
 
 /// A mesh whose triangles are distinct and have three distinct points each.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Repaired {
+pub(crate) struct Repaired {
     /// The mesh; its vertices keep the order they had.
     pub mesh: TriangleMesh,
     /// The point of each vertex, where some vertices share one: `points[v] <= v` is the first
@@ -70,7 +70,7 @@ pub struct Repaired {
 }
 
 /// Applies the rules of this module, in the arrays that the mesh has. O(n log n).
-pub fn repair(mut mesh: TriangleMesh) -> Repaired {
+pub(crate) fn repair(mut mesh: TriangleMesh) -> Repaired {
     let mut report = RepairReport::default();
     let Weld { vertices, points, looks } = weld(&mesh);
     report.vertices_welded = count_moved(&vertices);

@@ -10,7 +10,7 @@ use crate::flat::to_index;
 
 /// Lists of triangle slots, one per vertex.
 #[derive(Clone, Debug, Default)]
-pub struct Stars {
+pub(crate) struct Stars {
     lists: Vec<SlotRange>,
     pool: Vec<u32>,
 }
@@ -28,7 +28,7 @@ const SPARE: u32 = 1;
 
 /// The edge of a triangle that faces its corner `v`, in the triangle's orientation.
 #[inline]
-pub fn facing_edge([a, b, c]: [u32; 3], v: u32) -> (u32, u32) {
+pub(crate) fn facing_edge([a, b, c]: [u32; 3], v: u32) -> (u32, u32) {
     if a == v {
         (b, c)
     } else if b == v {
@@ -42,7 +42,7 @@ impl Stars {
     /// Stars of `n_vertices` vertices in `triangles`, each list in ascending order. O(n).
     ///
     /// A counting sort like that of `Groups`, but with room left in each list.
-    pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let mut lists = vec![SlotRange::default(); n_vertices];
         for &v in triangles.as_flattened() {
             lists[v as usize].capacity += 1;
@@ -67,13 +67,13 @@ impl Stars {
 
     /// Slots of the triangles at `v`, in no particular order.
     #[inline]
-    pub fn of(&self, v: u32) -> &[u32] {
+    pub(crate) fn of(&self, v: u32) -> &[u32] {
         let list = self.lists[v as usize];
         &self.pool[list.start as usize..][..list.len as usize]
     }
 
     /// Adds `slot` to the star of `v`. O(1) amortised.
-    pub fn add(&mut self, v: u32, slot: u32) {
+    pub(crate) fn add(&mut self, v: u32, slot: u32) {
         let list = self.lists[v as usize];
         if list.len == list.capacity {
             self.move_to_end(v);
@@ -84,7 +84,7 @@ impl Stars {
     }
 
     /// Takes `slot` out of the star of `v`, if it is there. O(valence).
-    pub fn remove(&mut self, v: u32, slot: u32) {
+    pub(crate) fn remove(&mut self, v: u32, slot: u32) {
         let list = &mut self.lists[v as usize];
         let members = &mut self.pool[list.start as usize..][..list.len as usize];
         if let Some(at) = position(members, slot) {
@@ -94,18 +94,18 @@ impl Stars {
     }
 
     /// Empties the star of `v`.
-    pub fn clear(&mut self, v: u32) {
+    pub(crate) fn clear(&mut self, v: u32) {
         self.lists[v as usize].len = 0;
     }
 
     /// Adds a vertex with an empty star and gives its index.
-    pub fn add_vertex(&mut self) -> u32 {
+    pub(crate) fn add_vertex(&mut self) -> u32 {
         self.lists.push(SlotRange::default());
         to_index(self.lists.len() - 1)
     }
 
     /// Closes gaps once they make up half of the pool. O(n) when it works, O(1) otherwise.
-    pub fn compact(&mut self, n_triangles_alive: usize) {
+    pub(crate) fn compact(&mut self, n_triangles_alive: usize) {
         if self.pool.len() < 6 * n_triangles_alive + 1024 {
             return;
         }
@@ -119,7 +119,7 @@ impl Stars {
     }
 
     /// Gives every slot its new number.
-    pub fn renumber(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber(&mut self, slots: &Renumbering) {
         for list in &self.lists {
             for slot in &mut self.pool[list.start as usize..][..list.len as usize] {
                 *slot = slots.place(*slot);

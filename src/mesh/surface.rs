@@ -18,7 +18,7 @@ const MIN_SLOTS: usize = 4096;
 /// slots of the old ones, and arrays that run parallel to the slots never grow; they become shorter
 /// when slots [close up](Self::close_up).
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub(crate) struct Surface {
     pub(super) positions: Vec<[f32; 3]>,
     /// Where the vertices were at the start; empty while none has moved.
     origins: Vec<[f32; 3]>,
@@ -30,74 +30,74 @@ pub struct Surface {
 
 impl Surface {
     /// A surface over `positions` in which slot `t` holds `triangles[t]`.
-    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+    pub(crate) fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let stars = Stars::new(positions.len(), &triangles);
         let locked = Locked::default();
         Self { n_triangles: triangles.len(), positions, origins: vec![], triangles, stars, locked }
     }
 
     /// Locks the vertices on the boundary.
-    pub fn lock_boundary(&mut self) {
+    pub(crate) fn lock_boundary(&mut self) {
         self.locked = Locked::boundary_of(self.n_vertices(), self.iter().map(|(_, corners)| corners));
     }
 
     /// Whether some vertices may be locked.
     #[inline]
-    pub fn has_locked(&self) -> bool {
+    pub(crate) fn has_locked(&self) -> bool {
         !self.locked.is_empty()
     }
 
     /// Whether vertex `v` is to stay.
     #[inline]
-    pub fn is_locked(&self, v: u32) -> bool {
+    pub(crate) fn is_locked(&self, v: u32) -> bool {
         self.locked.has(v)
     }
 
     /// Whether the edge `a b` may be made: the mesh does not have it yet, and not both ends are
     /// locked. O(valence of the smaller star).
-    pub fn may_join(&self, a: u32, b: u32) -> bool {
+    pub(crate) fn may_join(&self, a: u32, b: u32) -> bool {
         !self.locked.has_both([a, b]) && self.n_faces(a, b) == 0
     }
 
     /// Vertices, alive or not.
-    pub fn n_vertices(&self) -> usize {
+    pub(crate) fn n_vertices(&self) -> usize {
         self.positions.len()
     }
 
     /// Slots, in use or not.
-    pub fn n_slots(&self) -> usize {
+    pub(crate) fn n_slots(&self) -> usize {
         self.triangles.len()
     }
 
     /// Triangles alive.
-    pub fn n_triangles(&self) -> usize {
+    pub(crate) fn n_triangles(&self) -> usize {
         self.n_triangles
     }
 
     /// Positions of all vertices, alive or not.
-    pub fn positions(&self) -> &[[f32; 3]] {
+    pub(crate) fn positions(&self) -> &[[f32; 3]] {
         &self.positions
     }
 
     /// Gives up everything but the positions.
-    pub fn into_positions(self) -> Vec<[f32; 3]> {
+    pub(crate) fn into_positions(self) -> Vec<[f32; 3]> {
         self.positions
     }
 
     /// Position of vertex `v`.
     #[inline]
-    pub fn point(&self, v: u32) -> Vector {
+    pub(crate) fn point(&self, v: u32) -> Vector {
         widen(self.positions[v as usize])
     }
 
     /// Position of vertex `v` at the start.
     #[inline]
-    pub fn origin(&self, v: u32) -> Vector {
+    pub(crate) fn origin(&self, v: u32) -> Vector {
         self.origins.get(v as usize).map_or_else(|| self.point(v), |&p| widen(p))
     }
 
     /// Moves vertex `v`. O(1), and O(vertices) the first time.
-    pub fn move_vertex(&mut self, v: u32, position: [f32; 3]) {
+    pub(crate) fn move_vertex(&mut self, v: u32, position: [f32; 3]) {
         if self.origins.is_empty() {
             self.origins.clone_from(&self.positions);
         }
@@ -106,41 +106,41 @@ impl Surface {
 
     /// Corners of the triangle in `slot`; all [`u32::MAX`] once the slot is empty.
     #[inline]
-    pub fn corners(&self, slot: u32) -> [u32; 3] {
+    pub(crate) fn corners(&self, slot: u32) -> [u32; 3] {
         self.triangles[slot as usize]
     }
 
     /// Corner positions of the triangle in `slot`, which must be in use.
     #[inline]
-    pub fn triangle(&self, slot: u32) -> [Vector; 3] {
+    pub(crate) fn triangle(&self, slot: u32) -> [Vector; 3] {
         self.corners(slot).map(|v| self.point(v))
     }
 
     /// Whether the triangle in `slot` is still there.
     #[inline]
-    pub fn is_alive(&self, slot: u32) -> bool {
+    pub(crate) fn is_alive(&self, slot: u32) -> bool {
         self.corners(slot) != GONE
     }
 
     /// Slots in use and their triangles.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 3])> + Clone {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, [u32; 3])> + Clone {
         (0..).zip(self.triangles.iter().copied()).filter(|&(_, corners)| corners != GONE)
     }
 
     /// Slots of the triangles at `v`.
     #[inline]
-    pub fn star(&self, v: u32) -> &[u32] {
+    pub(crate) fn star(&self, v: u32) -> &[u32] {
         self.stars.of(v)
     }
 
     /// How many triangles have the edge `a b`. O(valence of the smaller star).
-    pub fn n_faces(&self, a: u32, b: u32) -> usize {
+    pub(crate) fn n_faces(&self, a: u32, b: u32) -> usize {
         let (fewer, other) = if self.star(a).len() <= self.star(b).len() { (a, b) } else { (b, a) };
         self.star(fewer).iter().filter(|&&slot| self.corners(slot).contains(&other)).count()
     }
 
     /// Whether some triangle has the three corners, in any order. O(valence of the smallest star).
-    pub fn has_triangle(&self, corners: [u32; 3]) -> bool {
+    pub(crate) fn has_triangle(&self, corners: [u32; 3]) -> bool {
         let fewest =
             corners.map(|v| self.star(v)).into_iter().min_by_key(|star| star.len()).unwrap_or_default();
         fewest.iter().any(|&slot| {
@@ -150,13 +150,13 @@ impl Surface {
     }
 
     /// Gives back memory that fillings left behind; cheap enough to call after every round.
-    pub fn compact(&mut self) {
+    pub(crate) fn compact(&mut self) {
         self.stars.compact(self.n_triangles);
     }
 
     /// Closes the slots up where a quarter of them has become empty, and gives the new numbers for
     /// all that runs parallel to the slots or names them. O(slots) when it works, O(1) otherwise.
-    pub fn close_up(&mut self) -> Option<Renumbering> {
+    pub(crate) fn close_up(&mut self) -> Option<Renumbering> {
         let is_short = self.n_slots() < MIN_SLOTS.max(self.n_vertices() / 4);
         if is_short || 4 * self.n_triangles > 3 * self.n_slots() {
             return None;

@@ -75,7 +75,7 @@ pub struct TetrahedronRepairReport {
 
 /// Tetrahedra that fit each other.
 #[derive(Clone, Debug)]
-pub struct RepairedVolume {
+pub(crate) struct RepairedVolume {
     /// Every vertex is used.
     pub mesh: TetrahedronMesh,
     /// The point of each vertex, named by its first vertex; `None` if each vertex is a point of its own.
@@ -88,7 +88,7 @@ pub struct RepairedVolume {
 
 /// Where the boundary of a repaired mesh is not that of the input. Triangles may be segments and points.
 #[derive(Clone, Debug, Default)]
-pub struct LostParts {
+pub(crate) struct LostParts {
     /// Tetrahedra that were dropped as degenerate, if nothing of the mesh covers them.
     pub loose: Vec<Triangle>,
     /// Faces of the mesh at the points of `loose`.
@@ -100,7 +100,7 @@ pub struct LostParts {
 }
 
 /// Applies the rules of this module. O(n log n).
-pub fn repair_tetrahedra(input: &TetrahedronMesh) -> RepairedVolume {
+pub(crate) fn repair_tetrahedra(input: &TetrahedronMesh) -> RepairedVolume {
     let mut report = TetrahedronRepairReport::default();
     let Weld { points, vertices, n_apart, degenerate } = weld(input);
     let mut volume = Volume::new(input, &points, &vertices);

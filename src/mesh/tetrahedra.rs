@@ -9,7 +9,7 @@ use crate::geometry::vector::{cross, dot, sub};
 
 /// Corners of the face opposite each corner, counter-clockwise seen from outside a tetrahedron of
 /// positive volume.
-pub const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// First corner of a slot whose tetrahedron is dead.
 const DEAD: u32 = NO_INDEX;
@@ -18,7 +18,7 @@ const DEAD: u32 = NO_INDEX;
 ///
 /// Memory: 25 bytes per slot, 28 per vertex, 16 per tetrahedron in the stars.
 #[derive(Clone, Debug, Default)]
-pub struct Tetrahedra {
+pub(crate) struct Tetrahedra {
     positions: Vec<[f32; 3]>,
     corners: Vec<[u32; 4]>,
     /// Bit `i`: nothing is on the other side of the face opposite corner `i`.
@@ -43,7 +43,7 @@ struct StarRange {
 impl Tetrahedra {
     /// Tetrahedra over vertices at these positions, each in the slot of its index. No two share all
     /// four corners. O(n).
-    pub fn new(positions: Vec<[f32; 3]>, corners: Vec<[u32; 4]>) -> Self {
+    pub(crate) fn new(positions: Vec<[f32; 3]>, corners: Vec<[u32; 4]>) -> Self {
         let at_corners = (0..).zip(&corners).flat_map(|(slot, t)| t.map(|v| (v, slot)));
         let (starts, pool) = Groups::new(positions.len(), at_corners).into_parts();
         let star = |ends: &[u32]| StarRange { start: ends[0], len: ends[1] - ends[0], n_dead: 0 };
@@ -64,40 +64,40 @@ impl Tetrahedra {
     }
 
     /// Tetrahedra alive.
-    pub fn n_alive(&self) -> usize {
+    pub(crate) fn n_alive(&self) -> usize {
         self.n_alive
     }
 
     /// Slots, dead ones included.
-    pub fn n_slots(&self) -> usize {
+    pub(crate) fn n_slots(&self) -> usize {
         self.corners.len()
     }
 
     /// Vertices, dead ones included.
-    pub fn n_vertices(&self) -> usize {
+    pub(crate) fn n_vertices(&self) -> usize {
         self.positions.len()
     }
 
     /// Positions of all vertices.
-    pub fn positions(&self) -> &[[f32; 3]] {
+    pub(crate) fn positions(&self) -> &[[f32; 3]] {
         &self.positions
     }
 
     /// A vertex's position in `f64`.
     #[inline(always)]
-    pub fn position(&self, v: u32) -> [f64; 3] {
+    pub(crate) fn position(&self, v: u32) -> [f64; 3] {
         self.positions[v as usize].map(f64::from)
     }
 
     /// Corners of the tetrahedron in a slot, if it is alive.
     #[inline(always)]
-    pub fn get(&self, slot: u32) -> Option<[u32; 4]> {
+    pub(crate) fn get(&self, slot: u32) -> Option<[u32; 4]> {
         let corners = self.corners[slot as usize];
         (corners[0] != DEAD).then_some(corners)
     }
 
     /// Tetrahedra alive, with their slots.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, [u32; 4])> + '_ {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, [u32; 4])> + '_ {
         (0..)
             .zip(&self.corners)
             .filter(|(_, corners)| corners[0] != DEAD)
@@ -106,7 +106,7 @@ impl Tetrahedra {
 
     /// Slots that hold or held a tetrahedron at `v`: all of its star, and dead ones.
     #[inline]
-    pub fn slots_at(&self, v: u32) -> &[u32] {
+    pub(crate) fn slots_at(&self, v: u32) -> &[u32] {
         let StarRange { start, len, .. } = self.stars[v as usize];
         #[cfg(test)]
         self.n_read.fetch_add(len.into(), std::sync::atomic::Ordering::Relaxed);
@@ -115,25 +115,25 @@ impl Tetrahedra {
 
     /// Tetrahedra in the star of `v`, which is alive. O(1).
     #[inline(always)]
-    pub fn n_at(&self, v: u32) -> u32 {
+    pub(crate) fn n_at(&self, v: u32) -> u32 {
         let StarRange { len, n_dead, .. } = self.stars[v as usize];
         len - n_dead
     }
 
     /// Entries of stars handed out so far.
     #[cfg(test)]
-    pub fn n_read(&self) -> u64 {
+    pub(crate) fn n_read(&self) -> u64 {
         self.n_read.load(std::sync::atomic::Ordering::Relaxed)
     }
 
     /// Faces of a tetrahedron on the boundary: bit `i` for the one opposite corner `i`.
     #[inline(always)]
-    pub fn boundary_bits(&self, slot: u32) -> u8 {
+    pub(crate) fn boundary_bits(&self, slot: u32) -> u8 {
         self.boundary[slot as usize]
     }
 
     /// The faces of the boundary, seen counter-clockwise from outside.
-    pub fn boundary(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+    pub(crate) fn boundary(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.iter().flat_map(|(slot, corners)| {
             let bits = self.boundary[slot as usize];
             (0..4).filter(move |i| bits >> i & 1 == 1).map(move |i| FACES[i].map(|j| corners[j]))
@@ -142,19 +142,19 @@ impl Tetrahedra {
 
     /// Faces that did not part two tetrahedra at the start: of three or more, or of two on the same
     /// side.
-    pub fn misfits(&self) -> &[[u32; 3]] {
+    pub(crate) fn misfits(&self) -> &[[u32; 3]] {
         &self.misfits
     }
 
     /// Adds a vertex without a star.
-    pub fn add_vertex(&mut self, position: [f32; 3]) {
+    pub(crate) fn add_vertex(&mut self, position: [f32; 3]) {
         self.positions.push(position);
         #[expect(clippy::cast_possible_truncation, reason = "a star's entries are counted in u32")]
         self.stars.push(StarRange { start: self.pool.len() as u32, ..StarRange::default() });
     }
 
     /// The tetrahedron in `slot` dies.
-    pub fn remove(&mut self, slot: u32) {
+    pub(crate) fn remove(&mut self, slot: u32) {
         for v in self.corners[slot as usize] {
             self.stars[v as usize].n_dead += 1;
         }
@@ -163,7 +163,7 @@ impl Tetrahedra {
     }
 
     /// Takes the dead out of a star where they are many. O(its slots).
-    pub fn purge(&mut self, v: u32) {
+    pub(crate) fn purge(&mut self, v: u32) {
         let star = &mut self.stars[v as usize];
         if 4 * star.n_dead <= star.len {
             return;
@@ -182,7 +182,7 @@ impl Tetrahedra {
     }
 
     /// Six times the volume of the tetrahedron in a slot; zero where it is dead.
-    pub fn six_volumes(&self, slot: u32) -> f64 {
+    pub(crate) fn six_volumes(&self, slot: u32) -> f64 {
         self.get(slot).map_or(0.0, |corners| {
             let [a, b, c, d] = corners.map(|v| self.position(v));
             dot(cross(sub(b, a), sub(c, a)), sub(d, a))
@@ -190,7 +190,7 @@ impl Tetrahedra {
     }
 
     /// Puts the newest vertex in the place of a corner, with new boundary bits.
-    pub fn move_corner(&mut self, slot: u32, corner: usize, boundary_bits: u8) {
+    pub(crate) fn move_corner(&mut self, slot: u32, corner: usize, boundary_bits: u8) {
         #[expect(clippy::cast_possible_truncation, reason = "vertices are counted in u32")]
         let newest = (self.positions.len() - 1) as u32;
         self.corners[slot as usize][corner] = newest;
@@ -230,7 +230,7 @@ impl Sides {
 }
 
 /// The faces that belong to one tetrahedron only, seen counter-clockwise from outside. O(n).
-pub fn boundary_triangles(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<[u32; 3]> {
+pub(super) fn boundary_triangles(tetrahedra: &[[u32; 4]], n_vertices: usize) -> Vec<[u32; 3]> {
     let faces = boundary_faces(tetrahedra, n_vertices);
     faces.map(|(tetrahedron, face)| face.map(|i| tetrahedra[tetrahedron][i])).collect()
 }

@@ -9,7 +9,7 @@ use super::{Renumbering, Surface};
 
 /// The wedges at the corners of every slot, parallel to the points that [`Surface`] keeps there.
 #[derive(Clone, Debug)]
-pub struct Wedges {
+pub(crate) struct Wedges {
     corners: Vec<[u32; 3]>,
     /// Wedges that differ at most in the normal have the same entry.
     looks: Vec<u32>,
@@ -19,7 +19,7 @@ impl Wedges {
     /// Parts `triangles` into the points at their corners and the wedges. `points` has the point of
     /// each wedge, and wedges look the same if their entries in `looks` agree; without `points` a
     /// wedge is its own point.
-    pub fn part(
+    pub(crate) fn part(
         triangles: Vec<[u32; 3]>,
         points: Option<Vec<u32>>,
         looks: Option<Vec<u32>>,
@@ -30,18 +30,18 @@ impl Wedges {
     }
 
     /// The wedges of the triangle in `slot`.
-    pub fn corners(&self, slot: u32) -> [u32; 3] {
+    pub(crate) fn corners(&self, slot: u32) -> [u32; 3] {
         self.corners[slot as usize]
     }
 
     /// The wedge that the triangle in `slot` has at `point`, one of its corners.
-    pub fn at(&self, surface: &Surface, slot: u32, point: u32) -> u32 {
+    pub(crate) fn at(&self, surface: &Surface, slot: u32, point: u32) -> u32 {
         let corner = surface.corners(slot).iter().position(|&corner| corner == point);
         corner.map_or(point, |corner| self.corners[slot as usize][corner])
     }
 
     /// The one wedge that all triangles at `point` have there; `None` if they have several.
-    pub fn only_at(&self, surface: &Surface, point: u32) -> Option<u32> {
+    pub(crate) fn only_at(&self, surface: &Surface, point: u32) -> Option<u32> {
         let mut wedges = surface.star(point).iter().map(|&slot| self.at(surface, slot, point));
         let first = wedges.next()?;
         wedges.all(|wedge| wedge == first).then_some(first)
@@ -49,7 +49,7 @@ impl Wedges {
 
     /// Whether a seam runs along an edge: whether the surface looks different in the two slots
     /// beside it, at one of its ends.
-    pub fn differ(&self, surface: &Surface, slots: [u32; 2], edge: [u32; 2]) -> bool {
+    pub(crate) fn differ(&self, surface: &Surface, slots: [u32; 2], edge: [u32; 2]) -> bool {
         edge.into_iter().any(|point| {
             let [a, b] = slots.map(|slot| self.looks[self.at(surface, slot, point) as usize]);
             a != b
@@ -57,19 +57,19 @@ impl Wedges {
     }
 
     /// Puts a triangle with these wedges into `slot`.
-    pub fn set(&mut self, slot: u32, corners: [u32; 3]) {
+    pub(crate) fn set(&mut self, slot: u32, corners: [u32; 3]) {
         self.corners[slot as usize] = corners;
     }
 
     /// Gives the triangle in `slot` another wedge in the place of `from`.
-    pub fn rename(&mut self, slot: u32, from: u32, to: u32) {
+    pub(crate) fn rename(&mut self, slot: u32, from: u32, to: u32) {
         let corners = &mut self.corners[slot as usize];
         *corners = corners.map(|wedge| if wedge == from { to } else { wedge });
     }
 
     /// Gives the triangles at `point`, which have one wedge there, the new wedge `new`, which has
     /// the next number and looks like the one before. Returns the one before.
-    pub fn replace_at(&mut self, surface: &Surface, point: u32, new: u32) -> u32 {
+    pub(crate) fn replace_at(&mut self, surface: &Surface, point: u32, new: u32) -> u32 {
         debug_assert_eq!(new as usize, self.looks.len());
         let star = surface.star(point);
         let old = star.first().map_or(point, |&slot| self.at(surface, slot, point));
@@ -79,12 +79,12 @@ impl Wedges {
     }
 
     /// A new wedge that looks like `wedge`.
-    pub fn add_copy(&mut self, wedge: u32) {
+    pub(crate) fn add_copy(&mut self, wedge: u32) {
         self.looks.push(self.looks[wedge as usize]);
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         slots.close_up(&mut self.corners);
     }
 }

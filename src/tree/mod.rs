@@ -47,7 +47,7 @@ mod stab;
 pub use build::{Layout, TreeError};
 pub use check::TreeFault;
 pub use difference::Difference;
-pub use order::{Group, LayoutOrder, List, n_heights};
+pub(crate) use order::{Group, LayoutOrder, List, n_heights};
 pub use stab::{Run, Runs, Tree};
 
 /// The levels `birth <= level < death` in which a simplex is alive; never empty.

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// Number of heights of a tree over `n_levels` levels, at most 2^31: the bit length of the last
 /// level, plus 1.
-pub fn n_heights(n_levels: u32) -> u32 {
+pub(crate) fn n_heights(n_levels: u32) -> u32 {
     u32::BITS - n_levels.saturating_sub(1).leading_zeros() + 1
 }
 
@@ -74,7 +74,7 @@ impl Group {
 /// All groups of a tree in the order of their slots: `n_heights * n_levels` of them, many empty in
 /// a given tree.
 #[derive(Clone, Debug)]
-pub struct LayoutOrder {
+pub(crate) struct LayoutOrder {
     n_levels: u32,
     /// One more than the height being listed.
     heights_left: u32,
@@ -88,7 +88,7 @@ pub struct LayoutOrder {
 
 impl LayoutOrder {
     /// The order for `n_levels` levels.
-    pub fn new(n_levels: u32) -> Self {
+    pub(crate) fn new(n_levels: u32) -> Self {
         let mut order =
             Self { n_levels, heights_left: n_heights(n_levels), node_start: 0, births: 0..0, deaths: 0..0 };
         order.enter_node();

@@ -16,7 +16,7 @@ use crate::flat::{Groups, NO_INDEX, to_index};
 /// Reference: P. Sander, D. Nehab, J. Barczak: "Fast triangle reordering for vertex locality and
 /// reduced overdraw" (SIGGRAPH 2007), section 3, the algorithm called Tipsify.
 #[derive(Clone, Debug)]
-pub struct FanOrder {
+pub(crate) struct FanOrder {
     /// Place of each vertex in the lists of one call.
     place: Vec<u32>,
     vertices: Vec<u32>,
@@ -24,19 +24,19 @@ pub struct FanOrder {
 
 impl FanOrder {
     /// For triangles of vertices below `n_vertices`.
-    pub fn new(n_vertices: usize) -> Self {
+    pub(crate) fn new(n_vertices: usize) -> Self {
         Self { place: vec![NO_INDEX; n_vertices], vertices: Vec::new() }
     }
 
     /// The order of `triangles`: each index below their number, once.
     ///
     /// `None` if a vertex is out of range or the corners do not fit in 32 bits.
-    pub fn order(&mut self, triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
+    pub(crate) fn order(&mut self, triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
         self.order_owned(triangles.to_vec())
     }
 
     /// As [`Self::order`], for triangles that the caller gives away.
-    pub fn order_owned(&mut self, mut triangles: Vec<[u32; 3]>) -> Option<Vec<u32>> {
+    pub(crate) fn order_owned(&mut self, mut triangles: Vec<[u32; 3]>) -> Option<Vec<u32>> {
         let corners = triangles.as_flattened();
         u32::try_from(corners.len()).ok()?;
         if corners.iter().any(|&vertex| vertex as usize >= self.place.len()) {

@@ -7,5 +7,5 @@
 mod fans;
 mod misses;
 
-pub use fans::FanOrder;
+pub(crate) use fans::FanOrder;
 pub use misses::{CACHE_LEN, miss_ratio};

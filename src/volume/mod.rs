@@ -5,4 +5,5 @@ mod slice;
 
 pub use boundary::boundary;
 pub(crate) use boundary::boundary_of_checked;
-pub use slice::{Plane, slice};
+pub use slice::Plane;
+pub(crate) use slice::slice;

@@ -20,7 +20,7 @@ pub struct Plane {
 /// Where a volume meets a plane: triangles that face along the normal of the plane, with
 /// interpolated fields. A tetrahedron that only touches the plane gives nothing, so a plane along
 /// faces gives one side. Empty for a normal of length 0. O(n).
-pub fn slice(volume: &TetrahedronMesh, plane: &Plane) -> TriangleMesh {
+pub(crate) fn slice(volume: &TetrahedronMesh, plane: &Plane) -> TriangleMesh {
     let Plane { normal, offset } = *plane;
     let offset = offset - dot(normal, volume.origin);
     let heights: Vec<f64> = volume.positions.iter().map(|p| dot(normal, p.map(f64::from)) - offset).collect();

@@ -24,7 +24,7 @@ use crate::mesh::Renumbering;
 /// A portion of a source edge.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub struct Portion {
+pub(crate) struct Portion {
     /// The triangle it is mapped into.
     pub slot: u32,
     /// Where it ends, as a part of the edge from its lower to its higher vertex; where the next one
@@ -41,41 +41,41 @@ const WORDS: usize = 2;
 
 /// The chains of two portions and more: records of edges.
 #[derive(Clone, Debug)]
-pub struct Chains(Records);
+pub(crate) struct Chains(Records);
 
 impl Chains {
     /// No chain, for any of `n_edges` edges.
-    pub fn new(n_edges: usize) -> Self {
+    pub(crate) fn new(n_edges: usize) -> Self {
         Self(Records::new(n_edges, USUAL_WORDS * n_edges))
     }
 
     /// Whether `edge` has a chain.
     #[inline]
-    pub fn has(&self, edge: u32) -> bool {
+    pub(crate) fn has(&self, edge: u32) -> bool {
         self.0.has(edge)
     }
 
     /// Portions of `edge` in order; empty if the whole edge is one portion.
     #[inline]
-    pub fn of(&self, edge: u32) -> &[Portion] {
+    pub(crate) fn of(&self, edge: u32) -> &[Portion] {
         bytemuck::cast_slice(self.0.of(edge))
     }
 
     /// Words that all chains take.
     #[inline]
-    pub fn n_words(&self) -> usize {
+    pub(crate) fn n_words(&self) -> usize {
         self.0.n_words()
     }
 
     /// Words that so many chains of so many portions take at most.
     #[inline]
-    pub fn n_words_of(n_chains: usize, n_portions: usize) -> usize {
+    pub(crate) fn n_words_of(n_chains: usize, n_portions: usize) -> usize {
         HEADER * n_chains + WORDS * n_portions
     }
 
     /// Replaces the chain of `edge` by `portions`; fewer than two portions need no chain.
     /// O(portions).
-    pub fn set(&mut self, edge: u32, portions: &[Portion]) {
+    pub(crate) fn set(&mut self, edge: u32, portions: &[Portion]) {
         if portions.len() < 2 {
             self.0.clear(edge);
         } else {
@@ -84,7 +84,7 @@ impl Chains {
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         self.0.for_each_mut(|words| {
             for portion in bytemuck::cast_slice_mut::<u32, Portion>(words) {
                 portion.slot = slots.place(portion.slot);
@@ -93,12 +93,12 @@ impl Chains {
     }
 
     /// Whether there is enough memory that former chains left behind to give it back.
-    pub fn has_gaps(&self) -> bool {
+    pub(crate) fn has_gaps(&self) -> bool {
         self.0.has_gaps()
     }
 
     /// Gives back memory that former chains left behind. O(words).
-    pub fn close_up(&mut self) {
+    pub(crate) fn close_up(&mut self) {
         self.0.close_up();
     }
 }

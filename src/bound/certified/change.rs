@@ -7,7 +7,7 @@ use crate::mesh::{Hole, MAX_VALENCE};
 
 /// What a removal changes in the map.
 #[derive(Clone, Debug, Default)]
-pub struct MapChange {
+pub(crate) struct MapChange {
     /// Every vertex mapped into the hole, by label.
     pub(super) assignments: Vec<Assignment>,
     /// Every source edge that needs or needed a chain through the hole.

@@ -15,46 +15,46 @@ const USUAL_WORDS: usize = 3;
 /// Source vertices in each slot, and source edges whose chain has a portion there: records of
 /// slots, which are the number of vertices, the vertices and the edges.
 #[derive(Clone, Debug)]
-pub struct Contents(Records);
+pub(crate) struct Contents(Records);
 
 impl Contents {
     /// Nothing, in any of `n_slots` slots.
-    pub fn new(n_slots: usize) -> Self {
+    pub(crate) fn new(n_slots: usize) -> Self {
         Self(Records::new(n_slots, USUAL_WORDS * n_slots))
     }
 
     /// Source vertices whose image is in the triangle in `slot`.
     #[inline]
-    pub fn vertices(&self, slot: u32) -> &[u32] {
+    pub(crate) fn vertices(&self, slot: u32) -> &[u32] {
         self.of(slot).0
     }
 
     /// Source edges that had a portion in the triangle in `slot` when it was born, each once.
     #[inline]
-    pub fn edges(&self, slot: u32) -> &[u32] {
+    pub(crate) fn edges(&self, slot: u32) -> &[u32] {
         self.of(slot).1
     }
 
     /// Words that all contents take.
     #[inline]
-    pub fn n_words(&self) -> usize {
+    pub(crate) fn n_words(&self) -> usize {
         self.0.n_words()
     }
 
     /// Words that the contents of so many slots take, with so many vertices and edges in all.
     #[inline]
-    pub fn n_words_of(n_slots: usize, n_mapped: usize) -> usize {
+    pub(crate) fn n_words_of(n_slots: usize, n_mapped: usize) -> usize {
         (HEADER + 1) * n_slots + n_mapped
     }
 
     /// Empties `slot`.
-    pub fn clear(&mut self, slot: u32) {
+    pub(crate) fn clear(&mut self, slot: u32) {
         self.0.clear(slot);
     }
 
     /// Fills `slot` with as many vertices and edges as the iterators tell.
     #[expect(clippy::cast_possible_truncation, reason = "words are at most MAX_PLACES")]
-    pub fn fill(
+    pub(crate) fn fill(
         &mut self,
         slot: u32,
         vertices: impl ExactSizeIterator<Item = u32>,
@@ -68,17 +68,17 @@ impl Contents {
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         self.0.renumber(slots);
     }
 
     /// Whether there is enough memory that former contents left behind to give it back.
-    pub fn has_gaps(&self) -> bool {
+    pub(crate) fn has_gaps(&self) -> bool {
         self.0.has_gaps()
     }
 
     /// Gives back memory that former contents left behind. O(words).
-    pub fn close_up(&mut self) {
+    pub(crate) fn close_up(&mut self) {
         self.0.close_up();
     }
 

@@ -12,7 +12,7 @@ const MAX_TRIANGLES: usize = MAX_VALENCE;
 /// Parents and depths of a filling's triangles, rooted at triangle 0, and the triangle at each ring
 /// edge.
 #[derive(Clone, Debug)]
-pub struct DualTree {
+pub(crate) struct DualTree {
     parent: [u8; MAX_TRIANGLES],
     depth: [u8; MAX_TRIANGLES],
     /// Ring indices of the edge between a triangle and its parent.
@@ -33,7 +33,7 @@ impl Default for DualTree {
 
 /// A step along a path: over this edge, given by ring indices, into that triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crossing {
+pub(crate) struct Crossing {
     /// Ring indices of the edge's ends.
     pub edge: [u8; 2],
     /// Index of the triangle behind it.
@@ -43,7 +43,7 @@ pub struct Crossing {
 impl DualTree {
     /// Makes this the dual tree of `filling`. O(n^2) for n triangles.
     #[expect(clippy::cast_possible_truncation, reason = "a filling has fewer than MAX_VALENCE triangles")]
-    pub fn build(&mut self, hole: &Hole, filling: &Filling) {
+    pub(crate) fn build(&mut self, hole: &Hole, filling: &Filling) {
         let n = filling.triangles.len();
         let mut reached = [false; MAX_TRIANGLES];
         let mut waiting = [0_u8; MAX_TRIANGLES];
@@ -79,17 +79,17 @@ impl DualTree {
 
     /// The triangle at the edge from ring vertex `i` to the next; for the last one of a chain, at
     /// the new boundary edge.
-    pub fn at_ring_edge(&self, i: usize) -> u8 {
+    pub(crate) fn at_ring_edge(&self, i: usize) -> u8 {
         self.at_ring_edge[i]
     }
 
     /// A triangle at ring vertex `i`.
-    pub fn at_ring_vertex(&self, i: u8) -> u8 {
+    pub(crate) fn at_ring_vertex(&self, i: u8) -> u8 {
         self.at_ring_edge[usize::from(i)]
     }
 
     /// Appends the crossings on the way from triangle `from` to triangle `to` to `path`.
-    pub fn path(&self, from: u8, to: u8, path: &mut Vec<Crossing>) {
+    pub(crate) fn path(&self, from: u8, to: u8, path: &mut Vec<Crossing>) {
         let [depth, parent] = [&self.depth, &self.parent];
         let (mut up, mut down) = (from, to);
         // To where the ways from both to the root meet.

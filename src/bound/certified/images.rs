@@ -13,7 +13,7 @@ use crate::mesh::{Surface, facing_edge};
 
 /// A point of the input whose image moves with the vertex.
 #[derive(Clone, Copy, Debug)]
-pub struct Image {
+pub(crate) struct Image {
     /// The point of the input.
     pub source: Vector,
     /// What it is mapped to.
@@ -22,7 +22,7 @@ pub struct Image {
 
 /// Part of a star that contains its vertex.
 #[derive(Clone, Copy, Debug)]
-pub enum Onto {
+pub(crate) enum Onto {
     /// The vertex itself.
     Vertex,
     /// The edge from the vertex to this point.
@@ -34,7 +34,7 @@ pub enum Onto {
 impl Image {
     /// From the source to its image, and the vertex's share in the image, when the vertex is at
     /// `apex`.
-    pub fn displacement(&self, apex: Vector) -> (Vector, f64) {
+    pub(crate) fn displacement(&self, apex: Vector) -> (Vector, f64) {
         match self.onto {
             Onto::Vertex => (sub(self.source, apex), 1.0),
             Onto::Edge(end) => {
@@ -57,7 +57,7 @@ impl Certified {
     /// it is not clear which edge a crossing is on; then `v` has to stay.
     ///
     /// O(vertices and edges mapped into the star).
-    pub fn images_at(&self, surface: &Surface, v: u32, images: &mut Vec<Image>) -> bool {
+    pub(crate) fn images_at(&self, surface: &Surface, v: u32, images: &mut Vec<Image>) -> bool {
         images.clear();
         images.push(Image { source: surface.origin(v), onto: Onto::Vertex });
         let mut edges = vec![];
@@ -95,7 +95,7 @@ impl Certified {
 }
 
 /// Largest squared displacement of the images when their vertex is at `apex`.
-pub fn largest_sq(images: &[Image], apex: Vector) -> f64 {
+pub(crate) fn largest_sq(images: &[Image], apex: Vector) -> f64 {
     images.iter().map(|image| length_sq(image.displacement(apex).0)).fold(0.0, f64::max)
 }
 

@@ -18,17 +18,17 @@
 //! triangles; a source edge enters and leaves the hole over ring edges, which stay, and takes the
 //! one path between two triangles that the hole's [`dual_tree`] has.
 
-pub mod chains;
+pub(crate) mod chains;
 mod change;
-pub mod contents;
-pub mod dual_tree;
-pub mod images;
+pub(crate) mod contents;
+pub(crate) mod dual_tree;
+pub(crate) mod images;
 mod labels;
 mod location;
 mod records;
 mod removal;
 mod route;
-pub mod source;
+pub(crate) mod source;
 mod star;
 mod transfer;
 
@@ -37,15 +37,15 @@ use crate::geometry::vector::{length, max, min, widen};
 use crate::mesh::{Hole, MAX_VALENCE, Renumbering, Surface, TooMany, check_places};
 use chains::Chains;
 use change::Assignment;
-pub use change::MapChange;
+pub(crate) use change::MapChange;
 use contents::Contents;
 use source::SourceEdges;
 use std::collections::HashMap;
-pub use transfer::Transfer;
+pub(crate) use transfer::Transfer;
 
 /// A displacement is followed up to so many times its limit. The filling was chosen to be within
 /// the limit, so that little is learned from going on for long.
-pub const REACH: f64 = 1.3;
+pub(crate) const REACH: f64 = 1.3;
 
 /// Most covered vertices that are asked whether a source edge leads from them to the removed one.
 const MAX_ASKED_BELOW: usize = 16;
@@ -62,7 +62,7 @@ const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The map from the input onto the current mesh.
 #[derive(Clone, Debug)]
-pub struct Certified {
+pub(crate) struct Certified {
     source: SourceEdges,
     chains: Chains,
     contents: Contents,
@@ -77,7 +77,7 @@ pub struct Certified {
 impl Certified {
     /// The identity on `surface`, which is the input but for `rounding`: how far reading it moved
     /// the worst vertex.
-    pub fn new(surface: &Surface, rounding: f64) -> Self {
+    pub(crate) fn new(surface: &Surface, rounding: f64) -> Self {
         let (n_slots, n_vertices) = (surface.n_slots(), surface.n_vertices());
         let source = SourceEdges::new(n_vertices, surface.iter().map(|(_, corners)| corners));
         let points = surface.positions().iter().map(|&p| widen(p));
@@ -98,7 +98,7 @@ impl Certified {
     /// What the replacement changes in the map, and the bound; or, where that is above `limit`,
     /// some value above the limit and no larger than it, followed up to [`REACH`] times the limit
     /// at most. O(vertices and edges mapped into the star).
-    pub fn change(
+    pub(crate) fn change(
         &self,
         replacement: Replacement<'_>,
         limit: f64,
@@ -117,7 +117,7 @@ impl Certified {
     /// # Errors
     ///
     /// What there would be too many of.
-    pub fn check_room<'a>(
+    pub(crate) fn check_room<'a>(
         &self,
         changes: impl Iterator<Item = (&'a Hole, &'a MapChange)>,
     ) -> Result<(), TooMany> {
@@ -133,7 +133,10 @@ impl Certified {
 
     /// Carries the map over to the filling of each hole, one after another. No two changes have a
     /// star or a source edge in common, and there must be [room](Self::check_room) for them.
-    pub fn apply_all<'a>(&mut self, changes: impl Iterator<Item = (&'a Hole, &'a MapChange)> + Clone + Send) {
+    pub(crate) fn apply_all<'a>(
+        &mut self,
+        changes: impl Iterator<Item = (&'a Hole, &'a MapChange)> + Clone + Send,
+    ) {
         let Self { chains, contents, rim_corner, rim_slots, .. } = self;
         let of_chains = changes.clone();
         let set_chains = || of_chains.for_each(|(_, change)| change.set_chains(chains));
@@ -152,7 +155,7 @@ impl Certified {
 
     /// Gives back memory that finished removals left behind, of both pools once one of them has
     /// enough of it, since they are closed up side by side. O(words) when it works, O(1) otherwise.
-    pub fn compact(&mut self) {
+    pub(crate) fn compact(&mut self) {
         let Self { chains, contents, .. } = self;
         if chains.has_gaps() || contents.has_gaps() {
             rayon::join(|| chains.close_up(), || contents.close_up());
@@ -160,7 +163,7 @@ impl Certified {
     }
 
     /// Gives every slot its new number. O(words of the proof).
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         let Self { chains, contents, .. } = self;
         rayon::join(|| chains.renumber_slots(slots), || contents.renumber_slots(slots));
         for slot in self.rim_slots.values_mut() {
@@ -170,7 +173,7 @@ impl Certified {
 
     /// Makes `covered` the source vertices whose image lies in the star of `hole`: the removed one
     /// first.
-    pub fn gather(&self, hole: &Hole, covered: &mut Vec<u32>) {
+    pub(crate) fn gather(&self, hole: &Hole, covered: &mut Vec<u32>) {
         covered.clear();
         covered.push(hole.removed);
         hole.slots.iter().for_each(|&slot| covered.extend_from_slice(self.contents.vertices(slot)));
@@ -180,7 +183,12 @@ impl Certified {
     /// chain, each once: ring vertices, with their places on the ring, or vertices mapped into the
     /// star, which are `covered`. Of many edges, or to many vertices in the star, some are left
     /// out. O(valence), but O(edges) at a hub.
-    pub fn for_each_unchained(&self, hole: &Hole, covered: &[u32], mut take: impl FnMut(u32, Option<usize>)) {
+    pub(crate) fn for_each_unchained(
+        &self,
+        hole: &Hole,
+        covered: &[u32],
+        mut take: impl FnMut(u32, Option<usize>),
+    ) {
         let v = hole.removed;
         let Self { source, chains, .. } = self;
         let unchained_up = source.up(v).filter(|&(edge, _)| !chains.has(edge));

@@ -9,7 +9,7 @@ use std::ops::Range;
 ///
 /// Memory: 4 bytes per edge and per vertex; 12 per triangle more while it is made.
 #[derive(Clone, Debug)]
-pub struct SourceEdges {
+pub(crate) struct SourceEdges {
     /// Higher end of each edge.
     highs: Vec<u32>,
     /// Where the edges that lead up from each vertex start in `highs`.
@@ -29,7 +29,7 @@ const HUB: usize = 64;
 
 impl SourceEdges {
     /// Edges of `triangles` over `n_vertices` vertices. O(n log valence).
-    pub fn new(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> Self {
+    pub(crate) fn new(n_vertices: usize, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> Self {
         let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| (p.min(q), p.max(q)));
         let (starts, mut highs) = Groups::new(n_vertices, triangles.flat_map(sides)).into_parts();
         let mut first_up = Vec::with_capacity(n_vertices + 1);
@@ -48,13 +48,13 @@ impl SourceEdges {
     }
 
     /// How many edges there are.
-    pub fn n_edges(&self) -> usize {
+    pub(crate) fn n_edges(&self) -> usize {
         self.highs.len()
     }
 
     /// End vertices of `edge`, the lower one first.
     #[inline]
-    pub fn ends(&self, edge: u32) -> [u32; 2] {
+    pub(crate) fn ends(&self, edge: u32) -> [u32; 2] {
         [self.low(edge), self.highs[edge as usize]]
     }
 
@@ -69,7 +69,7 @@ impl SourceEdges {
 
     /// Edges from `v` to higher vertices, each with its higher end, in ascending order.
     #[inline]
-    pub fn up(&self, v: u32) -> impl Iterator<Item = (u32, u32)> {
+    pub(crate) fn up(&self, v: u32) -> impl Iterator<Item = (u32, u32)> {
         let (start, end) = (self.first_up[v as usize], self.first_up[v as usize + 1]);
         (start..end).zip(self.highs[start as usize..end as usize].iter().copied())
     }
@@ -77,7 +77,7 @@ impl SourceEdges {
     /// Those of the edges [up](Self::up) from `v` that lead to one of `others`, and maybe more of
     /// them. O(edges up from `v`), or O(others log edges) at a hub of many edges.
     #[inline]
-    pub fn up_to(&self, v: u32, others: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+    pub(crate) fn up_to(&self, v: u32, others: &[u32]) -> impl Iterator<Item = (u32, u32)> {
         let is_hub = self.n_up(v) > HUB.max(others.len());
         let (of_hub, all) = if is_hub { (others, v..v) } else { (&[][..], v..v + 1) };
         let found = of_hub.iter().filter_map(move |&other| Some((self.edge(v, other)?, other)));
@@ -90,7 +90,7 @@ impl SourceEdges {
 
     /// The edge from `low` up to `high`. O(log edges).
     #[inline]
-    pub fn edge(&self, low: u32, high: u32) -> Option<u32> {
+    pub(crate) fn edge(&self, low: u32, high: u32) -> Option<u32> {
         let start = self.first_up[low as usize];
         let highs = &self.highs[start as usize..][..self.n_up(low)];
         let found = if highs.len() <= MAX_LINEAR_SEARCH {

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 /// Buffers of the transfer, one per thread.
 #[derive(Clone, Debug, Default)]
-pub struct Transfer {
+pub(crate) struct Transfer {
     hole_map: HoleMap,
     route: Route,
     location: Location,

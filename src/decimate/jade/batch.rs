@@ -18,7 +18,7 @@ const CHUNKS_PER_THREAD: usize = 16;
 
 /// What was found of some candidates.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub(crate) struct Judged {
     /// Of those within the limits.
     pub plans: Vec<Box<Plan>>,
     /// Of the others.
@@ -27,7 +27,7 @@ pub struct Judged {
 
 /// Plans the removal of every vertex of the batch under `limits`, in parallel. In order, a few
 /// together.
-pub fn plan_all(state: &State, limits: Limits, batch: &[u32]) -> Vec<Judged> {
+pub(crate) fn plan_all(state: &State, limits: Limits, batch: &[u32]) -> Vec<Judged> {
     let situation = state.situation();
     let plan_chunk = |chunk: &[u32]| {
         let mut scratch = state.workers.scratch();
@@ -56,7 +56,7 @@ fn chunk_len(n: usize) -> usize {
 /// # Errors
 ///
 /// When the errors have no room for them; nothing has changed then.
-pub fn carry_out(state: &mut State, plans: &[Box<Plan>]) -> Result<(), TooMany> {
+pub(crate) fn carry_out(state: &mut State, plans: &[Box<Plan>]) -> Result<(), TooMany> {
     let State { surface, names, error, recorder, .. } = state;
     let changes = plans.iter().map(|plan| plan.change());
     error.check_room(changes.clone())?;
@@ -76,7 +76,7 @@ pub fn carry_out(state: &mut State, plans: &[Box<Plan>]) -> Result<(), TooMany> 
 /// New edges and triangles have few bits for many of them, so that now and then one counts as
 /// claimed that is not.
 #[derive(Clone, Debug, Default)]
-pub struct Claims {
+pub(crate) struct Claims {
     /// A bit for each source edge.
     moved: NumberSet,
     /// A bit for each [`key`] of an edge or a triangle.
@@ -86,7 +86,7 @@ pub struct Claims {
 impl Claims {
     /// Takes those plans that are independent of all before them, and gives the vertices of the
     /// others.
-    pub fn take_independent(&mut self, plans: Vec<Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
+    pub(crate) fn take_independent(&mut self, plans: Vec<Box<Plan>>) -> (Vec<Box<Plan>>, Vec<u32>) {
         let (independent, overtaken): (Vec<_>, Vec<_>) = plans.into_iter().partition(|plan| self.claim(plan));
         self.clear();
         (independent, overtaken.into_iter().map(|plan| plan.hole.removed).collect())

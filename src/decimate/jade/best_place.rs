@@ -25,7 +25,7 @@ const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
 /// squared displacement; `None` if none is found. The corners of `bounds` are exact in `f32`.
 ///
 /// O(images), some 60 displacements each.
-pub fn best_place(
+pub(crate) fn best_place(
     images: &[Image],
     start: [f32; 3],
     bounds: Bounds,

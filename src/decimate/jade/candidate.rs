@@ -13,7 +13,7 @@ use crate::mesh::{Filling, Hole, NoHole, Surface};
 
 /// All that a candidate is judged by, and its removal planned from.
 #[derive(Clone, Copy)]
-pub struct Situation<'a> {
+pub(crate) struct Situation<'a> {
     /// The current mesh.
     pub surface: &'a Surface,
     /// What its vertices are called in the history.
@@ -28,7 +28,7 @@ pub struct Situation<'a> {
 
 /// Why a candidate stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refusal {
+pub(crate) enum Refusal {
     /// Not under these limits: its errors are at least these.
     Above(Errors),
     /// Not while its star stays as it is.
@@ -37,7 +37,7 @@ pub enum Refusal {
 
 /// Buffers for one candidate at a time.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch {
+pub(crate) struct Scratch {
     /// The candidate's hole.
     pub hole: Hole,
     /// Its filling.

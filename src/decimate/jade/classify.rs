@@ -11,7 +11,7 @@ use crate::mesh::{Hole, Surface, Wedges};
 
 /// What the star of a vertex looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
+pub(crate) enum Class {
     /// Surrounded by triangles, no feature edge: the hole is filled as one polygon.
     Simple,
     /// On the boundary of the surface.
@@ -27,7 +27,12 @@ pub enum Class {
 
 /// Classifies the vertex of `hole`. `cos_feature_angle` is that of the angle between normals above
 /// which an edge is a feature edge; every edge of a seam is one. O(valence).
-pub fn classify(hole: &Hole, surface: &Surface, wedges: Option<&Wedges>, cos_feature_angle: f64) -> Class {
+pub(crate) fn classify(
+    hole: &Hole,
+    surface: &Surface,
+    wedges: Option<&Wedges>,
+    cos_feature_angle: f64,
+) -> Class {
     let mut features = [0; 2];
     let mut n_features = 0;
     let mut n_seams = 0;

@@ -17,7 +17,7 @@ const PARALLEL: f64 = 1e-12;
 /// Source edges at the vertex of a hole, as far as they get a chain if they cross an edge inside
 /// it.
 #[derive(Clone, Debug, Default)]
-pub struct Crossings {
+pub(crate) struct Crossings {
     /// Where the removed vertex is in the input.
     origin: Vector,
     /// Normal of the hole's average plane.
@@ -38,7 +38,7 @@ struct SourceEdge {
 impl Crossings {
     /// Makes these the edges at the vertex of `hole`, whose average plane has the normal `up`,
     /// given the source vertices mapped into its star. O(valence).
-    pub fn gather(
+    pub(crate) fn gather(
         &mut self,
         surface: &Surface,
         hole: &Hole,
@@ -64,7 +64,7 @@ impl Crossings {
     /// Largest squared distance of the source edges that would cross the edge between two ring
     /// vertices from the line of that edge. It is the distance of two lines: that of the edges
     /// where they cross over each other, and no more elsewhere.
-    pub fn largest_sq(&self, hole: &Hole, [i, j]: [u8; 2]) -> f64 {
+    pub(crate) fn largest_sq(&self, hole: &Hole, [i, j]: [u8; 2]) -> f64 {
         let (i, j) = (usize::from(i.min(j)), usize::from(i.max(j)));
         let (start, along) = (hole.points[i], sub(hole.points[j], hole.points[i]));
         let across = cross(self.up, along);

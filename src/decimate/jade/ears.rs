@@ -4,7 +4,7 @@ use crate::geometry::projection::{Point2, turn};
 
 /// Which ear is cut next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EarOrder {
+pub(crate) enum EarOrder {
     /// The one with the smallest angle: the paper's minimum angle triangulation.
     MinimumAngle,
     /// The first one found, going round: plain ear cutting, the paper's fallback.
@@ -16,7 +16,7 @@ pub enum EarOrder {
 /// `corners[i]` is the name under which corner `i` appears in the output; it is used up. Returns
 /// whether it succeeded: rounding can leave a polygon without an ear. O(n^3) at worst; n is a
 /// valence.
-pub fn cut_ears(
+pub(crate) fn cut_ears(
     corners: &mut Vec<u8>,
     point: impl Fn(u8) -> Point2,
     order: EarOrder,

@@ -20,7 +20,7 @@ use crate::mesh::{Filling, Hole, Surface};
 
 /// A hole to be filled.
 #[derive(Clone, Copy, Debug)]
-pub struct Fitting<'a> {
+pub(crate) struct Fitting<'a> {
     /// The mesh around it.
     pub surface: &'a Surface,
     /// What is mapped into it.
@@ -35,7 +35,7 @@ pub struct Fitting<'a> {
 
 /// Buffers for one hole at a time.
 #[derive(Clone, Debug, Default)]
-pub struct FitBuffers {
+pub(crate) struct FitBuffers {
     /// Source vertices mapped into the hole.
     covered: Vec<u32>,
     crossings: Crossings,
@@ -55,7 +55,7 @@ struct HolePart {
 /// Returns the largest of these distances, squared; above the limit a lower bound of it, without a
 /// filling. `None` if there is no such filling, or if the hole is too large or has no average
 /// plane.
-pub fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling) -> Option<f64> {
+pub(crate) fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut Filling) -> Option<f64> {
     let Fitting { surface, certified, hole, class, limit_sq } = fitting;
     let up = hole.average_normal();
     let size_sq = length_sq(up);

@@ -12,7 +12,7 @@ use crate::mesh::{Filling, Hole, Surface};
 
 /// Flips inner edges while that helps. Each flip lowers the volume, so it ends; O(valence^2) flips
 /// at most.
-pub fn flip_edges(
+pub(crate) fn flip_edges(
     surface: &Surface,
     hole: &Hole,
     sampler: &Sampler,

@@ -12,26 +12,26 @@
 //! ([`classify`], then [`fit`] or [`triangulate`], then [`validity`]), [`removal`] is one plan, and
 //! [`placement`] moves vertices that stay.
 
-pub mod batch;
-pub mod best_place;
-pub mod candidate;
-pub mod classify;
-pub mod crossings;
-pub mod ears;
-pub mod fit;
-pub mod flip;
+pub(crate) mod batch;
+pub(crate) mod best_place;
+pub(crate) mod candidate;
+pub(crate) mod classify;
+pub(crate) mod crossings;
+pub(crate) mod ears;
+pub(crate) mod fit;
+pub(crate) mod flip;
 mod names;
-pub mod optimal;
+pub(crate) mod optimal;
 mod options;
-pub mod placement;
-pub mod removal;
+pub(crate) mod placement;
+pub(crate) mod removal;
 mod run;
-pub mod sampled_vertices;
+pub(crate) mod sampled_vertices;
 mod state;
-pub mod thresholds;
-pub mod triangulate;
-pub mod validity;
-pub mod worklists;
+pub(crate) mod thresholds;
+pub(crate) mod triangulate;
+pub(crate) mod validity;
+pub(crate) mod worklists;
 
 pub use options::{JadeBound, JadeOptions, Placement};
 pub(crate) use run::run;

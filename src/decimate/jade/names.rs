@@ -9,7 +9,7 @@ use crate::history::History;
 use crate::mesh::{Numbering, Renumbering, Surface, Wedges};
 
 /// The vertices of the input and of the history at each vertex of a surface.
-pub struct Names {
+pub(crate) struct Names {
     /// Vertex of the input for each vertex of the surface.
     in_input: Vec<u32>,
     in_history: HistoryNames,
@@ -28,7 +28,7 @@ enum HistoryNames {
 
 impl Names {
     /// Names for a surface with the given wedges, if it has seams.
-    pub fn new(numbering: Numbering, wedges: Option<Wedges>, placement: Placement) -> Self {
+    pub(crate) fn new(numbering: Numbering, wedges: Option<Wedges>, placement: Placement) -> Self {
         let in_history = match (wedges, placement) {
             (Some(wedges), _) => HistoryNames::Corner(wedges),
             (None, Placement::Best) => HistoryNames::Vertex(numbering.vertices().to_vec()),
@@ -38,7 +38,7 @@ impl Names {
     }
 
     /// The wedges, if the mesh has seams.
-    pub fn wedges(&self) -> Option<&Wedges> {
+    pub(crate) fn wedges(&self) -> Option<&Wedges> {
         match &self.in_history {
             HistoryNames::Corner(wedges) => Some(wedges),
             HistoryNames::Surface | HistoryNames::Vertex(_) => None,
@@ -46,7 +46,7 @@ impl Names {
     }
 
     /// Vertices of the history at the corners of the triangle in `slot`.
-    pub fn corners(&self, surface: &Surface, slot: u32) -> [u32; 3] {
+    pub(crate) fn corners(&self, surface: &Surface, slot: u32) -> [u32; 3] {
         match &self.in_history {
             HistoryNames::Surface => surface.corners(slot),
             HistoryNames::Vertex(names) => surface.corners(slot).map(|v| names[v as usize]),
@@ -55,13 +55,13 @@ impl Names {
     }
 
     /// Whether all triangles at `v` have the same vertex of the history there.
-    pub fn is_single(&self, surface: &Surface, v: u32) -> bool {
+    pub(crate) fn is_single(&self, surface: &Surface, v: u32) -> bool {
         self.wedges().is_none_or(|wedges| wedges.only_at(surface, v).is_some())
     }
 
     /// Makes `v`, which [is single](Self::is_single), the vertex `new` of the history from now on,
     /// the next after those there are. Returns which one it was.
-    pub fn rename(&mut self, surface: &Surface, v: u32, new: u32) -> u32 {
+    pub(crate) fn rename(&mut self, surface: &Surface, v: u32, new: u32) -> u32 {
         match &mut self.in_history {
             HistoryNames::Surface => v,
             HistoryNames::Vertex(names) => std::mem::replace(&mut names[v as usize], new),
@@ -70,28 +70,28 @@ impl Names {
     }
 
     /// Sets the vertices of the history in `slots`; does nothing without seams.
-    pub fn set(&mut self, slots: &[u32], vertices: &[[u32; 3]]) {
+    pub(crate) fn set(&mut self, slots: &[u32], vertices: &[[u32; 3]]) {
         if let HistoryNames::Corner(wedges) = &mut self.in_history {
             slots.iter().zip(vertices).for_each(|(&slot, &vertices)| wedges.set(slot, vertices));
         }
     }
 
     /// Gives every slot its new number.
-    pub fn renumber_slots(&mut self, slots: &Renumbering) {
+    pub(crate) fn renumber_slots(&mut self, slots: &Renumbering) {
         if let HistoryNames::Corner(wedges) = &mut self.in_history {
             wedges.renumber_slots(slots);
         }
     }
 
     /// Lets go of the seams; what is left puts things in the order of the input.
-    pub fn finish(self) -> InputOrder {
+    pub(crate) fn finish(self) -> InputOrder {
         let is_pending = matches!(self.in_history, HistoryNames::Surface);
         InputOrder { in_input: self.in_input, is_pending }
     }
 }
 
 /// Puts what a decimation leaves in the order of the input.
-pub struct InputOrder {
+pub(crate) struct InputOrder {
     in_input: Vec<u32>,
     /// Whether the history still has the numbers of the surface.
     is_pending: bool,
@@ -99,7 +99,7 @@ pub struct InputOrder {
 
 impl InputOrder {
     /// What belongs to each vertex of the surface, in the order of the input.
-    pub fn arrange<T: Copy + Default>(&self, of_surface: &[T]) -> Vec<T> {
+    pub(crate) fn arrange<T: Copy + Default>(&self, of_surface: &[T]) -> Vec<T> {
         let mut arranged = vec![T::default(); of_surface.len()];
         for (&v, &item) in self.in_input.iter().zip(of_surface) {
             arranged[v as usize] = item;
@@ -108,7 +108,7 @@ impl InputOrder {
     }
 
     /// Gives the history the numbers of the input, if it does not have them yet.
-    pub fn apply(&self, history: &mut History) {
+    pub(crate) fn apply(&self, history: &mut History) {
         if self.is_pending {
             history.vertex_death = self.arrange(&history.vertex_death);
             let corners = history.simplices.as_flattened_mut().iter_mut();

@@ -28,7 +28,7 @@ impl Score {
 /// Scores of the edges inside a polygon, known if they matter, and for each part of the polygon the
 /// least worst edge that any triangulation of it has.
 #[derive(Clone, Debug, Default)]
-pub struct EdgeScores {
+pub(crate) struct EdgeScores {
     own: [[f64; MAX_CORNERS]; MAX_CORNERS],
     least: [[f64; MAX_CORNERS]; MAX_CORNERS],
 }
@@ -37,7 +37,7 @@ impl EdgeScores {
     /// Makes these the scores of the polygon `corners`, at most [`MAX_CORNERS`], as far as they are
     /// needed to tell whether a triangulation is better than `enough`. `score` gets the ends of an
     /// edge. Returns a lower bound of the worst edge of every triangulation, exact up to `enough`.
-    pub fn set(&mut self, corners: &[u8], enough: f64, score: impl Fn([u8; 2]) -> f64) -> f64 {
+    pub(crate) fn set(&mut self, corners: &[u8], enough: f64, score: impl Fn([u8; 2]) -> f64) -> f64 {
         let Self { own, least } = self;
         let n = corners.len();
         for span in 2..n {
@@ -61,7 +61,7 @@ impl EdgeScores {
 /// triangle that may not be used, and is never negative; each edge inside has a score too. Returns
 /// the worst score, or a lower bound of it above `enough`, without triangles. `None` if every
 /// triangulation has a forbidden triangle, or if the polygon has more than [`MAX_CORNERS`].
-pub fn triangulate_optimally(
+pub(crate) fn triangulate_optimally(
     corners: &[u8],
     enough: f64,
     edges: &EdgeScores,

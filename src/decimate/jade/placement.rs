@@ -28,7 +28,7 @@ const GAIN: f64 = 0.97;
 const TURN_COS_SQ: f64 = 0.75;
 
 /// Whether vertices may move and the mesh is enough smaller than when they last did.
-pub fn is_due(state: &State) -> bool {
+pub(crate) fn is_due(state: &State) -> bool {
     let n_triangles = state.surface.n_triangles() as f64;
     state.moves.as_ref().is_some_and(|moves| n_triangles <= DUE * moves.n_triangles_last as f64)
 }
@@ -38,7 +38,7 @@ pub fn is_due(state: &State) -> bool {
 ///
 /// Vertices of one colour share no triangle: their places are found in parallel, whatever the
 /// number of threads.
-pub fn improve(state: &mut State, open: &[u32]) -> Vec<u32> {
+pub(crate) fn improve(state: &mut State, open: &[u32]) -> Vec<u32> {
     let mut moved = vec![];
     for of_colour in colours(state, open) {
         let find = |&v: &u32| Some((v, place_of(state, v, &mut state.workers.scratch())?));

@@ -8,7 +8,7 @@ use crate::mesh::{Filling, Hole, Surface, Wedges};
 
 /// All that a removal changes.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// The star that goes, without its points.
     pub hole: Hole,
     pub(super) filling: Filling,
@@ -23,7 +23,7 @@ pub struct Plan {
 
 /// Plans the removal of `v` under `limits`, or returns what it would need. The plan is in a box: it
 /// is long and most candidates have none.
-pub fn plan(
+pub(crate) fn plan(
     situation: Situation<'_>,
     v: u32,
     limits: Limits,
@@ -48,24 +48,24 @@ pub fn plan(
 
 impl Plan {
     /// The star that goes, and what its filling changes in the errors.
-    pub fn change(&self) -> (&Hole, &Change) {
+    pub(crate) fn change(&self) -> (&Hole, &Change) {
         (&self.hole, &self.change)
     }
 
     /// Edges that the filling makes, as vertices, the lower one first.
-    pub fn new_edges(&self) -> impl Iterator<Item = [u32; 2]> {
+    pub(crate) fn new_edges(&self) -> impl Iterator<Item = [u32; 2]> {
         let vertex = |i: u8| self.hole.ring[usize::from(i)];
         self.filling.inner_edges(&self.hole).map(move |[i, j]| [vertex(i), vertex(j)]).map(ascending)
     }
 
     /// The vertices of the one triangle that closes a hole of three corners, in ascending order.
-    pub fn lid(&self) -> Option<[u32; 3]> {
+    pub(crate) fn lid(&self) -> Option<[u32; 3]> {
         let is_closed = self.hole.closed && self.hole.n_ring() == 3;
         is_closed.then(|| ascending(self.filling.corners(&self.hole, 0)))
     }
 
     /// Writes the removal down as a step.
-    pub fn record(&self, recorder: &mut Recorder) {
+    pub(crate) fn record(&self, recorder: &mut Recorder) {
         let Self { hole, filling, error, dying, .. } = self;
         recorder.step(*error);
         hole.slots.iter().zip(dying).for_each(|(&slot, &triangle)| recorder.death(slot, triangle));
@@ -73,7 +73,7 @@ impl Plan {
     }
 
     /// Gives the filling its vertices in the history.
-    pub fn name_filling(&self, names: &mut Names) {
+    pub(crate) fn name_filling(&self, names: &mut Names) {
         names.set(&self.hole.slots, &self.born_at_seams);
     }
 }

@@ -6,7 +6,7 @@ use crate::mesh::{Hole, Surface};
 use multiversion::multiversion;
 
 /// Most ring vertices of a hole that is filled as well as can be.
-pub const MAX_CORNERS: usize = 11;
+pub(crate) const MAX_CORNERS: usize = 11;
 
 /// Most vertices that are sampled; of more of them so many, evenly spread.
 const MAX_SAMPLED: usize = Set::BITS as usize;
@@ -23,7 +23,7 @@ type Set = u64;
 /// on one side of it and those on the other. The vertices over a triangle are what three such sets
 /// have in common, and a vertex on a line lies over exactly one of the two triangles there.
 #[derive(Clone, Debug, Default)]
-pub struct SampledVertices {
+pub(crate) struct SampledVertices {
     points: Vec<Vector>,
     /// The points in the average plane, in units about as long as the hole, filled up with zeros
     /// to whole [`LANES`].
@@ -39,7 +39,7 @@ impl SampledVertices {
     /// Asks the `covered` source vertices about fillings of `hole`, whose average plane has the
     /// normal `up` that is not zero. At most [`MAX_CORNERS`] corners. O(ring pairs) for each that
     /// is sampled.
-    pub fn gather(&mut self, surface: &Surface, hole: &Hole, up: Vector, covered: &[u32]) {
+    pub(crate) fn gather(&mut self, surface: &Surface, hole: &Hole, up: Vector, covered: &[u32]) {
         let size = length_sq(up).sqrt();
         let (plane, unit) = (ProjectionPlane::new(scale(up, 1.0 / size)), 1.0 / size.sqrt());
         let flatten = |p: Vector| plane.project(p, hole.apex).map(|x| unit * x);
@@ -53,14 +53,14 @@ impl SampledVertices {
 
     /// Twice the area of a triangle of ring indices in the average plane, negative when it faces
     /// away.
-    pub fn flat_area(&self, triangle: [u8; 3]) -> f64 {
+    pub(crate) fn flat_area(&self, triangle: [u8; 3]) -> f64 {
         let [a, b, c] = triangle.map(|i| self.ring[usize::from(i)]);
         turn(a, b, c)
     }
 
     /// The vertices over a triangle of ring indices, in ring order.
     #[inline]
-    pub fn over(&self, [a, b, c]: [u8; 3]) -> Set {
+    pub(crate) fn over(&self, [a, b, c]: [u8; 3]) -> Set {
         [[a, b], [b, c], [c, a]].into_iter().fold(self.all(), |over, [i, j]| {
             over & if i < j { self.left[pair(i, j)] } else { !self.left[pair(j, i)] }
         })
@@ -68,7 +68,7 @@ impl SampledVertices {
 
     /// Largest of `value` among some points, or the first one found above `cutoff`.
     #[inline]
-    pub fn largest(&mut self, among: Set, cutoff: f64, value: impl Fn(Vector) -> f64) -> f64 {
+    pub(crate) fn largest(&mut self, among: Set, cutoff: f64, value: impl Fn(Vector) -> f64) -> f64 {
         let mut largest = 0.0_f64;
         for mut rest in [among & self.far, among & !self.far] {
             while rest != 0 {

@@ -12,7 +12,7 @@ use nephrite_formats::TriangleMesh;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What a decimation works on, and what it has done so far.
-pub struct State {
+pub(crate) struct State {
     /// The current mesh.
     pub surface: Surface,
     /// What its vertices are called in input and history.
@@ -114,7 +114,7 @@ impl State {
 
 /// Vertices that were born when others moved.
 #[derive(Clone, Debug)]
-pub struct Moves {
+pub(crate) struct Moves {
     /// For each, the vertex of the history that it was before, and its place.
     pub born: Vec<(u32, [f32; 3])>,
     /// Triangles when vertices last moved.
@@ -133,13 +133,13 @@ impl Moves {
 
 /// Buffers for judging, one set per thread of the pool and one for the caller.
 #[derive(Default)]
-pub struct Workers {
+pub(crate) struct Workers {
     scratches: Vec<Mutex<Scratch>>,
 }
 
 impl Workers {
     /// Buffers for the current rayon pool.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { scratches: (0..=rayon::current_num_threads()).map(|_| Mutex::default()).collect() }
     }
 

@@ -20,7 +20,7 @@ const CEILINGS: i32 = 8;
 
 /// The limits of one iteration after another.
 #[derive(Clone, Copy, Debug)]
-pub struct Thresholds {
+pub(crate) struct Thresholds {
     local: f64,
     target: f64,
     c1: f64,
@@ -29,7 +29,7 @@ pub struct Thresholds {
 
 impl Thresholds {
     /// Limits up to `max_error`, or without end, for a mesh with the given bounding diagonal.
-    pub fn new(max_error: Option<f64>, diagonal: f64, options: &JadeOptions) -> Self {
+    pub(crate) fn new(max_error: Option<f64>, diagonal: f64, options: &JadeOptions) -> Self {
         let start = max_error.unwrap_or(START * diagonal) / options.k_value();
         let target = max_error.unwrap_or(f64::INFINITY);
         // From nothing no factor would lead anywhere.
@@ -42,7 +42,7 @@ impl Thresholds {
     }
 
     /// The limits of this iteration.
-    pub fn limits(&self) -> Limits {
+    pub(crate) fn limits(&self) -> Limits {
         Limits { local: self.local, global: (self.c2 * self.local).min(self.target) }
     }
 
@@ -51,19 +51,19 @@ impl Thresholds {
     ///
     /// What is below the limit and above the ceiling waits, without being judged again: candidates
     /// then go nearly in the order of their errors, as if the limits rose that much more finely.
-    pub fn ceilings(&self) -> impl Iterator<Item = f64> + use<> {
+    pub(crate) fn ceilings(&self) -> impl Iterator<Item = f64> + use<> {
         let (limit, c1) = (self.limits().global, self.c1);
         (1..=CEILINGS).map(move |part| limit * c1.powf(f64::from(part - CEILINGS) / f64::from(CEILINGS)))
     }
 
     /// Whether this iteration's limits are those asked for.
-    pub fn is_last(&self) -> bool {
+    pub(crate) fn is_last(&self) -> bool {
         self.local >= self.target
     }
 
     /// Goes on to the first later iteration whose limits could admit a candidate that needs a local
     /// limit of `needed`; `None` when there is no such iteration.
-    pub fn advance(&mut self, needed: f64) -> Option<Limits> {
+    pub(crate) fn advance(&mut self, needed: f64) -> Option<Limits> {
         if self.is_last() || !needed.is_finite() || needed > self.target {
             return None;
         }

@@ -13,14 +13,14 @@ use crate::mesh::{Filling, Hole, Surface};
 
 /// Buffers of the triangulation, reused from hole to hole.
 #[derive(Clone, Debug, Default)]
-pub struct Polygons {
+pub(crate) struct Polygons {
     pub(super) part: Vec<u8>,
     corners: Vec<u8>,
     flat: Vec<Point2>,
 }
 
 /// Fills `hole`, of three ring vertices at least, validly, or returns false.
-pub fn triangulate(
+pub(crate) fn triangulate(
     surface: &Surface,
     hole: &Hole,
     class: Class,

@@ -5,25 +5,25 @@ use crate::geometry::vector::{Vector, cross, distance_sq, dot, length_sq, sub};
 use crate::mesh::{Filling, Hole, Surface};
 
 /// Triangles of a shape worse than this are refused, unless the star they replace had one as bad.
-pub const WORST_ASPECT: f64 = 0.02;
+pub(crate) const WORST_ASPECT: f64 = 0.02;
 /// Segments nearer than this, relative to the longer one, intersect.
 const TOUCHING: f64 = 1e-9;
 
 /// Shape of a triangle: 1 when equilateral, 0 when it has no area,
 /// `4 sqrt(3) area / sum of squared edges`.
-pub fn aspect(&[a, b, c]: &Triangle) -> f64 {
+pub(crate) fn aspect(&[a, b, c]: &Triangle) -> f64 {
     let area = length_sq(cross(sub(b, a), sub(c, a))).sqrt();
     let edges_sq = distance_sq(a, b) + distance_sq(b, c) + distance_sq(c, a);
     if edges_sq > 0.0 { 2.0 * 3_f64.sqrt() * area / edges_sq } else { 0.0 }
 }
 
 /// Smallest aspect among the triangles of the star.
-pub fn worst_star_aspect(hole: &Hole) -> f64 {
+pub(crate) fn worst_star_aspect(hole: &Hole) -> f64 {
     (0..hole.slots.len()).map(|i| aspect(&hole.triangle(i))).fold(1.0, f64::min)
 }
 
 /// Whether the filling may replace the star.
-pub fn is_valid(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
+pub(crate) fn is_valid(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
     is_inside(hole, filling)
         && is_well_shaped(hole, filling)
         && keeps_topology(surface, hole, filling)
@@ -38,7 +38,7 @@ fn is_inside(hole: &Hole, filling: &Filling) -> bool {
 }
 
 /// Whether a triangle's normal has a positive part along `up`.
-pub fn faces(&[a, b, c]: &Triangle, up: Vector) -> bool {
+pub(crate) fn faces(&[a, b, c]: &Triangle, up: Vector) -> bool {
     dot(cross(sub(b, a), sub(c, a)), up) > 0.0
 }
 
@@ -48,7 +48,7 @@ fn is_well_shaped(hole: &Hole, filling: &Filling) -> bool {
 }
 
 /// No new edge is one that the mesh has already, which would join the surface to itself, or joins two locked vertices.
-pub fn keeps_topology(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
+pub(crate) fn keeps_topology(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
     match (hole.closed, hole.n_ring()) {
         (true, 3) => !surface.has_triangle([hole.ring[0], hole.ring[1], hole.ring[2]]),
         _ => filling

@@ -7,7 +7,7 @@ use crate::mesh::Surface;
 use rayon::prelude::*;
 
 /// What was last found of each vertex, and the lists of those to be tried.
-pub struct Candidates {
+pub(crate) struct Candidates {
     /// The local limit that would have admitted it, or less: 0 when nothing is known, infinite when
     /// it was impossible or the vertex is gone.
     needed: Vec<f32>,
@@ -29,7 +29,7 @@ pub struct Candidates {
 
 /// The part of an iteration under one ceiling.
 #[derive(Clone, Copy, Debug)]
-pub struct Stage {
+pub(crate) struct Stage {
     /// The limits of the iteration.
     pub limits: Limits,
     /// Most that a removal may err now, at most the global limit.
@@ -42,7 +42,7 @@ pub struct Stage {
 
 impl Candidates {
     /// Nothing known yet, of a mesh of `n_vertices`.
-    pub fn new(n_vertices: usize) -> Self {
+    pub(crate) fn new(n_vertices: usize) -> Self {
         Self {
             needed: vec![0.0; n_vertices],
             found: vec![0.0; n_vertices],
@@ -56,7 +56,7 @@ impl Candidates {
 
     /// Lists every vertex that the limits may admit under the first of the rising `ceilings` that
     /// admits it. Drops vertices that are gone.
-    pub fn admit(&mut self, limits: Limits, ceilings: Vec<f64>, surface: &Surface) {
+    pub(crate) fn admit(&mut self, limits: Limits, ceilings: Vec<f64>, surface: &Surface) {
         let Self { needed, found, open, waiting, .. } = self;
         open.retain(|&v| !surface.star(v).is_empty());
         *waiting = Waiting::new(ceilings);
@@ -66,17 +66,17 @@ impl Candidates {
     }
 
     /// Vertices that may still be removed, and those that were since the last iteration began.
-    pub fn open(&self) -> &[u32] {
+    pub(crate) fn open(&self) -> &[u32] {
         &self.open
     }
 
     /// The least local limit that could admit anything.
-    pub fn least_needed(&self) -> f64 {
+    pub(crate) fn least_needed(&self) -> f64 {
         self.open.iter().map(|&v| f64::from(self.needed[v as usize])).fold(f64::INFINITY, f64::min)
     }
 
     /// Forgets what is known of the given vertices and their neighbours, all alive.
-    pub fn forget_around(&mut self, surface: &Surface, vertices: &[u32]) {
+    pub(crate) fn forget_around(&mut self, surface: &Surface, vertices: &[u32]) {
         for &v in vertices {
             for &slot in surface.star(v) {
                 surface.corners(slot).into_iter().for_each(|neighbour| self.forget(neighbour));
@@ -86,7 +86,7 @@ impl Candidates {
 
     /// Those above the last limits whose star changed since they were tried, with nothing known of
     /// them. In ascending order, each once.
-    pub fn take_changed(&mut self) -> Vec<u32> {
+    pub(crate) fn take_changed(&mut self) -> Vec<u32> {
         let mut changed = std::mem::take(&mut self.changed);
         changed.par_sort_unstable();
         changed.dedup();
@@ -97,7 +97,7 @@ impl Candidates {
 
     /// Takes the vertices below the ceiling off their list, in ascending order: neighbours in it
     /// are neighbours on the surface.
-    pub fn take_below(&mut self, stage: Stage) -> Vec<u32> {
+    pub(crate) fn take_below(&mut self, stage: Stage) -> Vec<u32> {
         let mut below = self.waiting.take(stage.step);
         self.retain_below(stage, &mut below);
         below.par_sort_unstable();
@@ -106,13 +106,13 @@ impl Candidates {
     }
 
     /// Lists the vertices under the next ceiling.
-    pub fn put_off(&mut self, stage: Stage, vertices: Vec<u32>) {
+    pub(crate) fn put_off(&mut self, stage: Stage, vertices: Vec<u32>) {
         self.waiting.add_all(stage.step + 1, vertices);
     }
 
     /// Records that the stars of `touched` have changed; returns those that may be tried under
     /// these limits.
-    pub fn touch(&mut self, Stage { limits, is_last, .. }: Stage, mut touched: Vec<u32>) -> Vec<u32> {
+    pub(crate) fn touch(&mut self, Stage { limits, is_last, .. }: Stage, mut touched: Vec<u32>) -> Vec<u32> {
         touched.retain(|&v| {
             let needed = self.needed[v as usize];
             if needed.is_infinite() {
@@ -130,7 +130,7 @@ impl Candidates {
     /// The given vertices below the ceiling, each once, in the order of the errors last found; ties
     /// go to the lower vertex.
     #[expect(clippy::cast_possible_truncation, reason = "the lower half of a key is the vertex")]
-    pub fn sort_out(&mut self, stage: Stage, mut vertices: Vec<u32>) -> Vec<u32> {
+    pub(crate) fn sort_out(&mut self, stage: Stage, mut vertices: Vec<u32>) -> Vec<u32> {
         self.retain_below(stage, &mut vertices);
         // The bits of what is not negative are in its order.
         let key = |v: u32| u64::from(self.found[v as usize].to_bits()) << u32::BITS | u64::from(v);
@@ -154,14 +154,14 @@ impl Candidates {
     }
 
     /// Begins a round, in which nothing is picked yet.
-    pub fn start_round(&mut self) {
+    pub(crate) fn start_round(&mut self) {
         self.round += 1;
     }
 
     /// Picks the next vertices of the worklist, `n_most` at most and no two of the round
     /// neighbours, and takes them off it. The first of two neighbours is picked; vertices passed
     /// over go to `left`.
-    pub fn pick(
+    pub(crate) fn pick(
         &mut self,
         surface: &Surface,
         n_most: usize,
@@ -185,7 +185,7 @@ impl Candidates {
     }
 
     /// Records what a vertex needs.
-    pub fn set_refusal(&mut self, v: u32, refusal: Refusal, c2: f64) {
+    pub(crate) fn set_refusal(&mut self, v: u32, refusal: Refusal, c2: f64) {
         let (needed, found) = match refusal {
             Refusal::Above(errors) => {
                 let found = round_up(errors.global);

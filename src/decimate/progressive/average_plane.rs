@@ -5,7 +5,7 @@ use crate::geometry::vector::{Vector, cross, dot, length, length_sq, sub};
 /// The average plane of a star (W. J. Schroeder, J. A. Zarge and W. E. Lorensen, "Decimation of
 /// triangle meshes", SIGGRAPH 1992, section 3.2): normals and centres weighted with the areas.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct AveragePlane {
+pub(crate) struct AveragePlane {
     /// Sum of the normals, each as long as twice its triangle's area.
     pub normal: Vector,
     /// Sum of the corners beside the vertex, relative to it, weighted with twice the areas.
@@ -18,7 +18,7 @@ impl AveragePlane {
     /// Adds the triangle between two spokes that start at the vertex; gives its normal, twice its
     /// area long, and that length.
     #[inline]
-    pub fn add(&mut self, first: Vector, second: Vector) -> (Vector, f64) {
+    pub(crate) fn add(&mut self, first: Vector, second: Vector) -> (Vector, f64) {
         let normal = cross(first, second);
         let size = length(normal);
         for axis in 0..3 {
@@ -31,7 +31,7 @@ impl AveragePlane {
 
     /// Distance between the vertex and the plane; zero for a star without area.
     #[inline]
-    pub fn distance(&self) -> f64 {
+    pub(crate) fn distance(&self) -> f64 {
         let size_sq = length_sq(self.normal);
         if size_sq > 0.0 && self.weight > 0.0 {
             // The centre of a triangle is a third of its spokes away from the vertex.

@@ -3,7 +3,7 @@
 /// For each vertex, whether its error in the queue is that of its star as it is now, and the
 /// collapse that was found for it.
 #[derive(Clone, Debug, Default)]
-pub struct Choices {
+pub(crate) struct Choices {
     known: Vec<Known>,
 }
 
@@ -21,42 +21,42 @@ enum Known {
 
 impl Choices {
     /// Nothing is known of vertices below `n_vertices`.
-    pub fn new(n_vertices: usize) -> Self {
+    pub(crate) fn new(n_vertices: usize) -> Self {
         Self { known: vec![Known::default(); n_vertices] }
     }
 
     /// Makes room for one more vertex.
-    pub fn add_vertex(&mut self) {
+    pub(crate) fn add_vertex(&mut self) {
         self.known.push(Known::default());
     }
 
     /// The star of `v` has changed.
     #[inline]
-    pub fn forget(&mut self, v: u32) {
+    pub(crate) fn forget(&mut self, v: u32) {
         self.known[v as usize] = Known::Nothing;
     }
 
     /// `v` is queued with its local error.
     #[inline]
-    pub fn measure(&mut self, v: u32) {
+    pub(crate) fn measure(&mut self, v: u32) {
         self.known[v as usize] = Known::Measured;
     }
 
     /// `v` is queued with the error of its collapse into neighbour `into`.
     #[inline]
-    pub fn choose(&mut self, v: u32, into: u32, distance: f64) {
+    pub(crate) fn choose(&mut self, v: u32, into: u32, distance: f64) {
         self.known[v as usize] = Known::Chosen(into, distance);
     }
 
     /// Whether the error that `v` is queued with counts still.
     #[inline]
-    pub fn is_measured(&self, v: u32) -> bool {
+    pub(crate) fn is_measured(&self, v: u32) -> bool {
         !matches!(self.known[v as usize], Known::Nothing)
     }
 
     /// Neighbour that `v` is to go into, and the distance that this leaves.
     #[inline]
-    pub fn of(&self, v: u32) -> Option<(u32, f64)> {
+    pub(crate) fn of(&self, v: u32) -> Option<(u32, f64)> {
         match self.known[v as usize] {
             Known::Chosen(into, distance) => Some((into, distance)),
             Known::Nothing | Known::Measured => None,

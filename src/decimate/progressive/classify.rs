@@ -11,7 +11,7 @@ use crate::mesh::{Surface, Wedges, facing_edge};
 
 /// The classes; the first is for a vertex that has gone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum VertexClass {
+pub(crate) enum VertexClass {
     /// No triangle.
     #[default]
     Empty,
@@ -35,14 +35,14 @@ pub enum VertexClass {
 
 impl VertexClass {
     /// Whether a collapse may be tried.
-    pub fn may_collapse(self) -> bool {
+    pub(crate) fn may_collapse(self) -> bool {
         !matches!(self, Self::Empty | Self::NonManifold | Self::Corner | Self::Locked)
     }
 }
 
 /// The surroundings of a vertex in space. Reused from vertex to vertex.
 #[derive(Clone, Debug, Default)]
-pub struct Geometry {
+pub(crate) struct Geometry {
     /// Position of the vertex.
     pub apex: Vector,
     /// Positions of the neighbours, parallel to the ring's vertices.
@@ -61,12 +61,12 @@ pub struct Geometry {
 
 impl Geometry {
     /// Distance between the vertex and the average plane.
-    pub fn distance_to_plane(&self) -> f64 {
+    pub(crate) fn distance_to_plane(&self) -> f64 {
         self.plane.distance()
     }
 
     /// Takes the ring's surroundings. O(valence).
-    pub fn gather(
+    pub(crate) fn gather(
         &mut self,
         surface: &Surface,
         wedges: Option<&Wedges>,
@@ -126,7 +126,7 @@ impl Geometry {
 }
 
 /// Classifies the vertex of `ring`. O(1) after [`Geometry::gather`].
-pub fn classify(surface: &Surface, ring: &Ring, geometry: &Geometry) -> VertexClass {
+pub(crate) fn classify(surface: &Surface, ring: &Ring, geometry: &Geometry) -> VertexClass {
     let n_features = geometry.features.len();
     match ring.shape {
         Shape::Empty => VertexClass::Empty,

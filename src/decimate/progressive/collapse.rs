@@ -21,7 +21,7 @@ const MAX_TRIED: usize = 64;
 
 /// A collapse that may be carried out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Collapse {
+pub(crate) struct Collapse {
     /// Index in the ring of the neighbour that the vertex goes into.
     pub into: usize,
     /// What it does to the topology.
@@ -32,7 +32,7 @@ pub struct Collapse {
 
 /// How the new fan meets the rest of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contact {
+pub(crate) enum Contact {
     /// At the ring only: the topology stays as it is.
     None,
     /// The new boundary edge is another one's: a hole of three edges closes.
@@ -43,7 +43,7 @@ pub enum Contact {
 
 /// Marks on vertices, all of them wiped at once.
 #[derive(Clone, Debug, Default)]
-pub struct VertexMarks {
+pub(crate) struct VertexMarks {
     marked: Vec<u32>,
     now: u32,
 }
@@ -70,7 +70,7 @@ impl VertexMarks {
 
 /// A vertex with its surroundings, whose collapse is looked for.
 #[derive(Clone, Copy, Debug)]
-pub struct CollapseCandidate<'a> {
+pub(crate) struct CollapseCandidate<'a> {
     /// The mesh.
     pub surface: &'a Surface,
     /// The vertex and its star.
@@ -84,7 +84,7 @@ pub struct CollapseCandidate<'a> {
 /// The collapse of the ring's centre along the valid edge that leaves the least error; along the
 /// shortest valid one where there are more than [`MAX_COMPARED_VALENCE`] triangles. O(valence^3)
 /// for few, O(valence) for others.
-pub fn best_valid(
+pub(crate) fn best_valid(
     candidate: CollapseCandidate<'_>,
     shadow: &mut Shadow,
     marks: &mut VertexMarks,
@@ -166,7 +166,7 @@ fn best_of(
 
 /// The collapse into neighbour `into`, known to leave this distance, unless the mesh around has
 /// made it impossible since.
-pub fn still_valid(
+pub(crate) fn still_valid(
     surface: &Surface,
     ring: &Ring,
     (into, distance): (u32, f64),

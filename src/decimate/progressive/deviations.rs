@@ -11,30 +11,30 @@ use crate::bound::accumulated::round_up;
 
 /// The bound of the triangle in each slot.
 #[derive(Clone, Debug)]
-pub struct Deviations {
+pub(crate) struct Deviations {
     of_slot: Vec<f32>,
 }
 
 impl Deviations {
     /// Of the input from itself.
-    pub fn new(n_slots: usize) -> Self {
+    pub(crate) fn new(n_slots: usize) -> Self {
         Self { of_slot: vec![0.0; n_slots] }
     }
 
     /// The largest bound among the triangles of a star.
-    pub fn of_star(&self, ring: &Ring) -> f64 {
+    pub(crate) fn of_star(&self, ring: &Ring) -> f64 {
         let bounds = ring.slots.iter().map(|&slot| self.of_slot[slot as usize]);
         f64::from(bounds.fold(0.0, f32::max))
     }
 
     /// The triangles of a star have changed.
-    pub fn set_star(&mut self, ring: &Ring, bound: f64) {
+    pub(crate) fn set_star(&mut self, ring: &Ring, bound: f64) {
         let bound = round_up(bound);
         ring.slots.iter().for_each(|&slot| self.of_slot[slot as usize] = bound);
     }
 
     /// The triangle in `slot` now also stands for points at this distance from it.
-    pub fn raise(&mut self, slot: u32, bound: f64) {
+    pub(crate) fn raise(&mut self, slot: u32, bound: f64) {
         let of_slot = &mut self.of_slot[slot as usize];
         *of_slot = of_slot.max(round_up(bound));
     }

@@ -11,13 +11,13 @@ use crate::geometry::distance::{nearest_parameter, point_segment_distance_sq, po
 use crate::geometry::vector::{Vector, add_scaled, length, sub};
 
 /// Of stars of at most this many triangles, all fans are tried.
-pub const MAX_COMPARED_VALENCE: usize = 24;
+pub(crate) const MAX_COMPARED_VALENCE: usize = 24;
 /// Stars of more triangles are not compared with their fans edge by edge.
 const MAX_MAPPED_VALENCE: usize = 128;
 
 /// Distance of the vertex to what its deletion would leave, by its class. O(1) after
 /// [`Geometry::gather`].
-pub fn local_error(class: VertexClass, ring: &Ring, geometry: &Geometry) -> f64 {
+pub(crate) fn local_error(class: VertexClass, ring: &Ring, geometry: &Geometry) -> f64 {
     let to_line = |i: usize, j: usize| {
         point_segment_distance_sq(geometry.apex, [geometry.points[i], geometry.points[j]]).sqrt()
     };
@@ -35,7 +35,7 @@ pub fn local_error(class: VertexClass, ring: &Ring, geometry: &Geometry) -> f64 
 }
 
 /// Whether a collapse leaves nothing of the star: a lone triangle, or the two sides of one.
-pub fn vanishes(ring: &Ring) -> bool {
+pub(crate) fn vanishes(ring: &Ring) -> bool {
     ring.len() == 1 || (ring.len() == 2 && ring.is_cycle())
 }
 
@@ -48,7 +48,7 @@ pub fn vanishes(ring: &Ring) -> bool {
 /// neighbour crosses the fan's edges between the two in turn, each at the nearest point. No point
 /// moves farther than one of these; the argument is that of [`crate::bound::certified`]. A second
 /// map takes the vertex straight along the edge that collapses.
-pub fn actual_error(ring: &Ring, geometry: &Geometry, into: usize, limit: f64) -> Option<f64> {
+pub(crate) fn actual_error(ring: &Ring, geometry: &Geometry, into: usize, limit: f64) -> Option<f64> {
     let along = length(sub(geometry.points[into], geometry.apex));
     let limit = limit.min(along.next_up());
     if ring.len() > MAX_MAPPED_VALENCE {
@@ -104,6 +104,6 @@ fn image_of_vertex(ring: &Ring, geometry: &Geometry, into: usize) -> (usize, f64
 
 /// Pairs of neighbours that make up a fan from neighbour `into`: the triangles of the star that
 /// survive the collapse.
-pub fn fan_of(ring: &Ring, into: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
+pub(crate) fn fan_of(ring: &Ring, into: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
     (0..ring.len()).map(|i| [i, ring.next(i)]).filter(move |pair| !pair.contains(&into))
 }

@@ -63,7 +63,7 @@ pub struct EventLog {
 
 /// Events that are listed one by one; the others are only counted. A file's metadata has room for
 /// some ten thousand.
-pub const MAX_LISTED: usize = 2048;
+pub(crate) const MAX_LISTED: usize = 2048;
 
 impl EventLog {
     /// Records an event.

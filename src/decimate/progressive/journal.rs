@@ -39,7 +39,7 @@ pub struct Trace {
 
 /// History and trace in the making.
 #[derive(Clone, Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     /// Lifetimes so far.
     pub recorder: Recorder,
     n_vertices_in: u32,
@@ -49,13 +49,13 @@ pub struct Journal {
 
 impl Journal {
     /// A journal at step 0, over this many vertices of the input.
-    pub fn new(recorder: Recorder, n_vertices_in: u32) -> Self {
+    pub(crate) fn new(recorder: Recorder, n_vertices_in: u32) -> Self {
         Self { recorder, n_vertices_in, trace: Trace::default() }
     }
 
     /// The vertex of the input that a vertex is a copy of, perhaps of copies; itself for one of the
     /// input.
-    pub fn origin(&self, mut vertex: u32) -> u32 {
+    pub(crate) fn origin(&self, mut vertex: u32) -> u32 {
         // A vertex is copied from an earlier one, so this ends.
         while let Some(copied) = vertex.checked_sub(self.n_vertices_in) {
             vertex = self.trace.copies[copied as usize];
@@ -64,12 +64,12 @@ impl Journal {
     }
 
     /// Records a collapse or merge.
-    pub fn collapse(&mut self, from: u32, into: u32) {
+    pub(crate) fn collapse(&mut self, from: u32, into: u32) {
         self.trace.operations.push(Operation::Collapse { from, into });
     }
 
     /// Records a split and returns the new vertex.
-    pub fn split(&mut self, from: u32, slots: &[u32]) -> u32 {
+    pub(crate) fn split(&mut self, from: u32, slots: &[u32]) -> u32 {
         let copy = self.recorder.vertex();
         let start = self.trace.slots.len();
         self.trace.slots.extend_from_slice(slots);
@@ -80,7 +80,7 @@ impl Journal {
     }
 
     /// Step of the history.
-    pub fn n_steps(&self) -> u32 {
+    pub(crate) fn n_steps(&self) -> u32 {
         self.recorder.n_steps()
     }
 }

@@ -11,27 +11,27 @@
 //! error is carried along for as long as nothing but collapses that keep the topology happened;
 //! [`events`] are the moments at which it changed.
 
-pub mod accumulated;
+pub(crate) mod accumulated;
 mod average_plane;
-pub mod choices;
-pub mod classify;
-pub mod collapse;
-pub mod deviations;
-pub mod error;
-pub mod events;
-pub mod journal;
+pub(crate) mod choices;
+pub(crate) mod classify;
+pub(crate) mod collapse;
+pub(crate) mod deviations;
+pub(crate) mod error;
+pub(crate) mod events;
+pub(crate) mod journal;
 mod options;
-pub mod proof;
-pub mod queue;
-pub mod ring;
+pub(crate) mod proof;
+pub(crate) mod queue;
+pub(crate) mod ring;
 mod run;
 mod schedule;
-pub mod shadow;
-pub mod split;
+pub(crate) mod shadow;
+pub(crate) mod split;
 mod state;
 mod steps;
 mod turns;
-pub mod vanished;
+pub(crate) mod vanished;
 mod view;
 mod wedge_targets;
 

@@ -13,7 +13,7 @@ use crate::mesh::{Filling, Hole, Surface};
 /// The map from the input onto the current mesh, and that mesh once more in the form that the map
 /// refers to.
 #[derive(Clone, Debug)]
-pub struct Proof {
+pub(crate) struct Proof {
     surface: Surface,
     certified: Certified,
     hole: Hole,
@@ -23,7 +23,7 @@ pub struct Proof {
 
 impl Proof {
     /// The identity on `mesh`, which is the input but for `rounding`.
-    pub fn new(mesh: &Surface, rounding: f64) -> Self {
+    pub(crate) fn new(mesh: &Surface, rounding: f64) -> Self {
         let triangles = mesh.iter().map(|(_, corners)| corners).collect();
         let surface = Surface::new(mesh.positions().to_vec(), triangles);
         Self {
@@ -38,7 +38,12 @@ impl Proof {
     /// Plans the collapse of the ring's centre into neighbour `into`, which carries the map over to
     /// the fan that is left. The plan fails if no bound of at most `limit` follows. `None` if the
     /// star is not one that the proof can follow. O(input mapped into the star).
-    pub fn plan(&mut self, ring: &Ring, into: usize, limit: f64) -> Option<Result<Plan<'_>, AboveLimit>> {
+    pub(crate) fn plan(
+        &mut self,
+        ring: &Ring,
+        into: usize,
+        limit: f64,
+    ) -> Option<Result<Plan<'_>, AboveLimit>> {
         let Self { surface, certified, hole, filling, transfer } = self;
         hole.gather(surface, ring.center).ok()?;
         let target = hole.ring.iter().position(|&r| r == ring.vertices[into])?;
@@ -58,12 +63,12 @@ impl Proof {
 
 /// No bound within the limit was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AboveLimit;
+pub(crate) struct AboveLimit;
 
 /// A collapse whose bound is known. Holds the change of the map that the bound was found for, so
 /// that no other one can be carried out under this bound.
 #[derive(Debug)]
-pub struct Plan<'a> {
+pub(crate) struct Plan<'a> {
     proof: &'a mut Proof,
     error: f64,
     change: MapChange,
@@ -71,13 +76,13 @@ pub struct Plan<'a> {
 
 impl Plan<'_> {
     /// A bound on the error of the mesh inside the ring after the collapse.
-    pub fn error(&self) -> f64 {
+    pub(crate) fn error(&self) -> f64 {
         self.error
     }
 
     /// Applies the change to the map and to the mesh of the proof. False if there is no room for
     /// it; then the proof ends here.
-    pub fn carry_out(self) -> bool {
+    pub(crate) fn carry_out(self) -> bool {
         let Self { proof: Proof { surface, certified, hole, filling, .. }, change, .. } = self;
         let changes = std::iter::once((&*hole, &change));
         if certified.check_room(changes.clone()).is_err() {

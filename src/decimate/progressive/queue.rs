@@ -12,7 +12,7 @@ use crate::flat::NO_INDEX;
 
 /// A priority queue of vertices, the least error first.
 #[derive(Clone, Debug, Default)]
-pub struct VertexQueue {
+pub(crate) struct VertexQueue {
     /// Error bits above, those of the vertex below in reverse; children of `i` are
     /// `4 i + 1 ..= 4 i + 4`.
     heap: Vec<u64>,
@@ -24,34 +24,34 @@ const CHILDREN: usize = 4;
 
 impl VertexQueue {
     /// An empty queue for vertices below `n_vertices`.
-    pub fn new(n_vertices: usize) -> Self {
+    pub(crate) fn new(n_vertices: usize) -> Self {
         Self { heap: Vec::with_capacity(n_vertices), places: vec![NO_INDEX; n_vertices] }
     }
 
     /// Makes room for one more vertex.
-    pub fn add_vertex(&mut self) {
+    pub(crate) fn add_vertex(&mut self) {
         self.places.push(NO_INDEX);
     }
 
     /// How many vertices are queued.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.heap.len()
     }
 
     /// Whether `vertex` is queued.
     #[inline]
-    pub fn contains(&self, vertex: u32) -> bool {
+    pub(crate) fn contains(&self, vertex: u32) -> bool {
         self.places[vertex as usize] != NO_INDEX
     }
 
     /// The least error in the queue.
-    pub fn least(&self) -> Option<f64> {
+    pub(crate) fn least(&self) -> Option<f64> {
         self.heap.first().map(|&entry| unpack(entry).1)
     }
 
     /// Queues `vertex`, or moves it to where its new error belongs. Errors are not negative. O(log
     /// n).
-    pub fn set(&mut self, vertex: u32, error: f64) {
+    pub(crate) fn set(&mut self, vertex: u32, error: f64) {
         let entry = pack(vertex, error);
         let place = self.places[vertex as usize];
         if place == NO_INDEX {
@@ -69,7 +69,7 @@ impl VertexQueue {
 
     /// Takes the vertex with the least error, and that error as it was rounded for the queue. O(log
     /// n).
-    pub fn pop(&mut self) -> Option<(u32, f64)> {
+    pub(crate) fn pop(&mut self) -> Option<(u32, f64)> {
         let &entry = self.heap.first()?;
         let (vertex, error) = unpack(entry);
         self.delete(vertex);
@@ -77,7 +77,7 @@ impl VertexQueue {
     }
 
     /// Takes `vertex` out, wherever it is; nothing happens if it is not queued. O(log n).
-    pub fn delete(&mut self, vertex: u32) {
+    pub(crate) fn delete(&mut self, vertex: u32) {
         let place = std::mem::replace(&mut self.places[vertex as usize], NO_INDEX);
         if place == NO_INDEX {
             return;

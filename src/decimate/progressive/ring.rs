@@ -13,7 +13,7 @@ const MAX_CHAINED_VALENCE: usize = 24;
 
 /// How the triangles at a vertex hang together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shape {
+pub(crate) enum Shape {
     /// No triangle.
     #[default]
     Empty,
@@ -28,7 +28,7 @@ pub enum Shape {
 
 /// A vertex and its star in order. Reused from vertex to vertex.
 #[derive(Clone, Debug, Default)]
-pub struct Ring {
+pub(crate) struct Ring {
     /// The vertex.
     pub center: u32,
     /// How the star hangs together.
@@ -52,7 +52,7 @@ struct RingSpoke {
 
 impl Ring {
     /// Orders the star of `v`. O(valence log valence), and faster for few triangles.
-    pub fn gather(&mut self, surface: &Surface, v: u32) {
+    pub(crate) fn gather(&mut self, surface: &Surface, v: u32) {
         self.center = v;
         self.vertices.clear();
         self.slots.clear();
@@ -73,30 +73,30 @@ impl Ring {
 
     /// Number of triangles.
     #[inline]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.slots.len()
     }
 
     /// Whether the triangles surround the vertex.
     #[inline]
-    pub fn is_cycle(&self) -> bool {
+    pub(crate) fn is_cycle(&self) -> bool {
         self.shape == Shape::Cycle
     }
 
     /// Index of the neighbour after `i`, around the cycle.
     #[inline]
-    pub fn next(&self, i: usize) -> usize {
+    pub(crate) fn next(&self, i: usize) -> usize {
         if i + 1 == self.vertices.len() { 0 } else { i + 1 }
     }
 
     /// Whether a triangle of the star has both neighbours `i` and `j`.
-    pub fn are_adjacent(&self, i: usize, j: usize) -> bool {
+    pub(crate) fn are_adjacent(&self, i: usize, j: usize) -> bool {
         let (low, high) = (i.min(j), i.max(j));
         high == low + 1 || (self.is_cycle() && low == 0 && high + 1 == self.vertices.len())
     }
 
     /// Positions of the neighbours, into `points`.
-    pub fn positions(&self, surface: &Surface, points: &mut Vec<Vector>) {
+    pub(crate) fn positions(&self, surface: &Surface, points: &mut Vec<Vector>) {
         points.clear();
         points.extend(self.vertices.iter().map(|&r| surface.point(r)));
     }

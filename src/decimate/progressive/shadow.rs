@@ -16,7 +16,7 @@ const LEAST_SINE: f64 = 1e-6;
 /// The neighbours of a vertex, relative to it, over its average plane. Reused from vertex to
 /// vertex.
 #[derive(Clone, Debug, Default)]
-pub struct Shadow {
+pub(crate) struct Shadow {
     points: Vec<Point>,
     /// Whether triangles without area are let pass.
     is_degenerate: bool,
@@ -52,7 +52,7 @@ impl Point {
 
 impl Shadow {
     /// Looks at a star. O(valence).
-    pub fn gather(&mut self, ring: &Ring, geometry: &Geometry) {
+    pub(crate) fn gather(&mut self, ring: &Ring, geometry: &Geometry) {
         let [u, v, w] = axes(geometry.plane.normal);
         self.points.clear();
         self.points.extend(geometry.points.iter().map(|&point| {
@@ -65,13 +65,13 @@ impl Shadow {
 
     /// Leaves the last neighbour out, which is at the place of the first: the vertex at a crack's
     /// tip is then seen as surrounded.
-    pub fn close_crack(&mut self) {
+    pub(crate) fn close_crack(&mut self) {
         self.points.pop();
     }
 
     /// Whether [`Self::height_over_fan`] can be asked.
     #[inline]
-    pub fn is_height_field(&self) -> bool {
+    pub(crate) fn is_height_field(&self) -> bool {
         self.is_height_field
     }
 
@@ -96,7 +96,7 @@ impl Shadow {
     /// turn one way only, and no part of it that a plane looks at may turn by half a circle; that
     /// is `3 n` of them. A fan of a single triangle, which no plane cuts, must not be turned over
     /// either.
-    pub fn is_valid_fan(&self, into: usize) -> bool {
+    pub(crate) fn is_valid_fan(&self, into: usize) -> bool {
         let n_others = self.points.len() - 1;
         if n_others < 2 {
             return true;
@@ -124,7 +124,7 @@ impl Shadow {
     /// Largest height between the star, a height field, and the valid fan from neighbour `into`;
     /// nothing where that is not below `limit`. O(valence^2), and less where the limit is passed
     /// early.
-    pub fn height_over_fan(&self, into: usize, limit: f64) -> Option<f64> {
+    pub(crate) fn height_over_fan(&self, into: usize, limit: f64) -> Option<f64> {
         let n = self.points.len();
         let target = self.points[into];
         let mut highest = self.height_at_vertex(into);
@@ -149,7 +149,7 @@ impl Shadow {
 
     /// What the heights of the vertex and its neighbours spread over, if the star is a height
     /// field: no valid fan is higher over it. O(valence).
-    pub fn spread(&self) -> Option<f64> {
+    pub(crate) fn spread(&self) -> Option<f64> {
         let heights = self.points.iter().map(|point| point.height);
         let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
         self.is_height_field.then_some(high - low)

@@ -5,7 +5,7 @@ use super::ring::Ring;
 
 /// The triangles at a vertex in pieces that lie one behind the other. Reused from vertex to vertex.
 #[derive(Clone, Debug, Default)]
-pub struct StarPieces {
+pub(crate) struct StarPieces {
     /// Slots of all triangles of the star.
     slots: Vec<u32>,
     /// Where each piece starts; the first at 0.
@@ -15,14 +15,14 @@ pub struct StarPieces {
 impl StarPieces {
     /// Cuts the star: a non-manifold vertex into its fans, another one along its feature edges, and
     /// where those do not cut it, in half.
-    pub fn cut(&mut self, ring: &Ring, geometry: &Geometry, class: VertexClass) {
+    pub(crate) fn cut(&mut self, ring: &Ring, geometry: &Geometry, class: VertexClass) {
         if !self.cut_at_features(ring, geometry, class) && ring.len() >= 2 {
             self.starts.push(ring.len() / 2);
         }
     }
 
     /// Cuts the star into fans or along its feature edges; false where it stays in one piece.
-    pub fn cut_at_features(&mut self, ring: &Ring, geometry: &Geometry, class: VertexClass) -> bool {
+    pub(crate) fn cut_at_features(&mut self, ring: &Ring, geometry: &Geometry, class: VertexClass) -> bool {
         self.slots.clear();
         self.starts.clear();
         self.slots.extend_from_slice(&ring.slots);
@@ -45,12 +45,12 @@ impl StarPieces {
     }
 
     /// Pieces after the first, which keeps the vertex.
-    pub fn n_split_off(&self) -> usize {
+    pub(crate) fn n_split_off(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
     /// Slots of the `i`-th piece after the first.
-    pub fn split_off(&self, i: usize) -> &[u32] {
+    pub(crate) fn split_off(&self, i: usize) -> &[u32] {
         let end = self.starts.get(i + 2).copied().unwrap_or(self.slots.len());
         &self.slots[self.starts[i + 1]..end]
     }

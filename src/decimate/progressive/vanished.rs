@@ -21,7 +21,7 @@ const MAX_BESIDE: usize = 64;
 
 /// A triangle that has vanished.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece {
+pub(crate) struct Piece {
     /// Its corners; all at one place if the piece is a ball.
     pub corners: Triangle,
     /// Bound on the distance of the input's points that it stood for from it.
@@ -30,7 +30,7 @@ pub struct Piece {
 
 /// Where pieces are to go.
 #[derive(Clone, Debug, Default)]
-pub struct PieceMoves {
+pub(crate) struct PieceMoves {
     /// Hosts and their pieces.
     pieces: Vec<(u32, Piece)>,
     /// Bound on the distance of the input's points that the pieces stand for from their hosts; 0
@@ -40,7 +40,7 @@ pub struct PieceMoves {
 
 /// All pieces.
 #[derive(Clone, Debug, Default)]
-pub struct Vanished {
+pub(crate) struct Vanished {
     hosted: HashMap<u32, Vec<Piece>>,
     index: Option<Index>,
 }
@@ -85,7 +85,7 @@ impl PieceMoves {
 impl Vanished {
     /// Where pieces at the triangles of a star go when its centre goes into neighbour `into`: to
     /// the nearest triangle of the fan. O(pieces times valence).
-    pub fn moves_to_fan(&self, surface: &Surface, ring: &Ring, into: usize) -> PieceMoves {
+    pub(crate) fn moves_to_fan(&self, surface: &Surface, ring: &Ring, into: usize) -> PieceMoves {
         let mut moves = PieceMoves::default();
         for &piece in self.at(ring) {
             let target = ring.vertices[into];
@@ -102,7 +102,7 @@ impl Vanished {
     }
 
     /// Where pieces at the triangles of a star go that vanishes beside `host`.
-    pub fn moves_beside(&self, surface: &Surface, ring: &Ring, host: u32) -> PieceMoves {
+    pub(crate) fn moves_beside(&self, surface: &Surface, ring: &Ring, host: u32) -> PieceMoves {
         let triangle = surface.corners(host).map(|v| surface.point(v));
         let mut moves = PieceMoves::default();
         self.at(ring).for_each(|&piece| moves.add(host, piece, piece.distance(&triangle)));
@@ -111,7 +111,7 @@ impl Vanished {
 
     /// Where pieces at the triangles of a star go that vanishes with nothing beside it, and `own`,
     /// which is the star itself: to the nearest triangle of all. Infinitely far if there is none.
-    pub fn moves_away(&mut self, surface: &Surface, ring: &Ring, own: Piece) -> PieceMoves {
+    pub(crate) fn moves_away(&mut self, surface: &Surface, ring: &Ring, own: Piece) -> PieceMoves {
         let pieces: Vec<Piece> = self.at(ring).copied().chain([own]).collect();
         let mut moves = PieceMoves::default();
         for piece in pieces {
@@ -127,7 +127,7 @@ impl Vanished {
     }
 
     /// Moves pieces as planned, away from the star.
-    pub fn carry_out(&mut self, ring: &Ring, moves: PieceMoves) {
+    pub(crate) fn carry_out(&mut self, ring: &Ring, moves: PieceMoves) {
         for slot in &ring.slots {
             self.hosted.remove(slot);
         }
@@ -142,7 +142,7 @@ impl Vanished {
 
     /// After the collapse of the ring's centre: the triangles that have gone are to be looked for
     /// at one that took their place, or else at `host`.
-    pub fn follow(&mut self, surface: &Surface, ring: &Ring, host: Option<u32>) {
+    pub(crate) fn follow(&mut self, surface: &Surface, ring: &Ring, host: Option<u32>) {
         let Some(Index { merged_into, .. }) = &mut self.index else { return };
         let successor =
             ring.slots.iter().copied().find(|&slot| surface.is_alive(slot)).or(host).unwrap_or(NO_INDEX);
@@ -212,7 +212,7 @@ fn follow_merges(merged_into: &mut [u32], slot: u32) -> u32 {
 
 /// For a star that vanishes with the collapse of its centre: a triangle that has a corner in common
 /// with it and stays, and a bound on the distance of the star from it. `None` if there is none.
-pub fn beside(surface: &Surface, ring: &Ring) -> Option<(u32, f64)> {
+pub(crate) fn beside(surface: &Surface, ring: &Ring) -> Option<(u32, f64)> {
     let corners = of_star(surface, ring);
     let around = ring.vertices.iter().flat_map(|&r| surface.star(r).iter().take(MAX_BESIDE));
     let stays = around.filter(|slot| !ring.slots.contains(slot));
@@ -223,7 +223,7 @@ pub fn beside(surface: &Surface, ring: &Ring) -> Option<(u32, f64)> {
 }
 
 /// The corners of a star that vanishes: all its triangles have them.
-pub fn of_star(surface: &Surface, ring: &Ring) -> Triangle {
+pub(crate) fn of_star(surface: &Surface, ring: &Ring) -> Triangle {
     let around = |i: usize| surface.point(ring.vertices[i.min(ring.vertices.len() - 1)]);
     [surface.point(ring.center), around(0), around(1)]
 }
