@@ -12,7 +12,7 @@ pub(crate) struct Limits {
 impl Limits {
     /// No limit.
     #[cfg(test)]
-    pub const NONE: Self = Self { local: f64::INFINITY, global: f64::INFINITY };
+    pub(crate) const NONE: Self = Self { local: f64::INFINITY, global: f64::INFINITY };
 
     /// Both limits times a factor.
     pub(super) fn scaled(self, factor: f64) -> Self {
