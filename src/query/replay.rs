@@ -27,15 +27,15 @@ impl Lod {
     /// [`StreamError`] for damaged operations.
     ///
     /// ```
-    /// use nephrite::{BuildOptions, Lod, ProgressiveOptions, StoreOptions, build, generate};
+    /// use nephrite::{BuildOptions, Lod, ProgressiveOptions, Replayed, StoreOptions, build, generate};
     /// let options = BuildOptions::with(ProgressiveOptions::default());
     /// let few = StoreOptions { levels: Some(4), operations: true, ..StoreOptions::default() };
     /// let mut bytes = std::io::Cursor::new(vec![]);
     /// build(&generate::torus(40, 20), &options)?.write_to(&mut bytes, &few)?;
     /// let lod = Lod::from_bytes(bytes.get_ref())?;
-    /// let replayed = lod.replay(1000)?.ok_or("no operations")?;
-    /// assert!((999..=1000).contains(&replayed.mesh.triangles.len()));
-    /// assert!(replayed.bound.n_simplices() < 999);
+    /// let Replayed { mesh, bound } = lod.replay(1000)?.ok_or("no operations")?;
+    /// assert!((999..=1000).contains(&mesh.triangles.len()));
+    /// assert!(bound.n_simplices() < 999);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn replay(&self, n_triangles: usize) -> Result<Option<Replayed<'_>>, StreamError> {

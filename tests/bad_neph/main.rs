@@ -66,7 +66,7 @@ fn every_error_of_opening_and_verifying_has_a_file() {
     let of_head = variants(include_str!("../../formats/src/neph/error.rs"), "NephError");
     let of_contents = variants(include_str!("../../src/store/error.rs"), "VerifyError");
     let of_tree = variants(include_str!("../../src/tree/check.rs"), "TreeFault");
-    let of_compact = variants(include_str!("../../src/store/compact.rs"), "CompactFault");
+    let of_compact = variants(include_str!("../../src/store/error.rs"), "CompactFault");
     let mut expected: Vec<String> = of_head.iter().map(|name| format!("refused: {name}")).collect();
     let of_contents = of_contents.iter().filter(|name| !OF_THE_SYSTEM.contains(name));
     let plain = of_contents.filter(|name| !["Tree", "Compact"].contains(name));
