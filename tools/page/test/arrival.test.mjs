@@ -35,7 +35,7 @@ test("a server of 200 ms a request shows a picture after a few of them and a twe
   await page.waitForFunction(() => performance.getEntriesByName("first picture").length > 0);
   const first = await firstPicture(page);
   assert.ok(first.bytes <= 0.05 * facts.file_bytes, `${first.bytes} of ${facts.file_bytes} bytes`);
-  assert.ok(first.requests <= 12, `${first.requests} requests, four at a time`);
+  assert.ok(first.requests <= 13, `${first.requests} requests, four at a time`);
   // Rounds of requests, and what a machine that draws in software beside other work needs for the picture itself.
   assert.ok(first.milliseconds < 5 * DELAY_MS + 3000, `${first.milliseconds} ms`);
   assert.ok(drawn(await pixels(page)) > 0.1);

@@ -137,7 +137,7 @@ mod tests {
     }
 
     /// Options that every build honours.
-    const GENERAL: [&str; 11] = [
+    const GENERAL: [&str; 12] = [
         "output",
         "output-dir",
         "input-format",
@@ -146,6 +146,7 @@ mod tests {
         "window-levels",
         "compact",
         "feature-angle",
+        "lock-boundary",
         "threads",
         "help",
         "version",
