@@ -12,19 +12,11 @@ use crate::query::Lod;
 use std::path::Path;
 
 impl Opened {
-    /// Maps a file and checks its head. Cost: constant, a few pages whatever the size of the file; of a file in the compact
-    /// form the slots are read and laid out in memory, see [`StoreOptions::is_compact`](super::StoreOptions::is_compact).
+    /// Maps a file and checks its head.
     ///
     /// # Safety
     ///
-    /// While the result lives,
-    ///
-    /// * nobody writes to the file, in this process or in any other: its bytes are borrowed as shared references;
-    /// * nobody truncates it: access to a page behind the end is a fault (SIGBUS) that ends the process;
-    /// * the file lies on a device that stays readable: a failing read is the same fault.
-    ///
-    /// Renaming another file over the path, or deleting it, is safe: the map keeps the file it was made from.
-    /// [`Build::write`](crate::Build::write) publishes by rename and so keeps this contract.
+    /// As [`Lod::map`].
     ///
     /// # Errors
     ///
@@ -41,23 +33,29 @@ impl Opened {
 }
 
 impl Lod {
-    /// Maps a file: what [`Opened::map`] does, for queries.
+    /// Maps a file and checks its head. Cost: constant, a few pages whatever the size of the file.
+    /// The slots of a file in the compact form are read and laid out in memory, see
+    /// [`StoreOptions::is_compact`](crate::StoreOptions::is_compact).
     ///
     /// # Safety
     ///
     /// While the result lives,
     ///
-    /// * nobody writes to the file, in this process or in any other;
-    /// * nobody truncates it;
-    /// * the device it lies on stays readable.
+    /// * nobody writes to the file, in this process or in any other: its bytes are borrowed as
+    ///   shared references;
+    /// * nobody truncates it: access to a page behind the end is a fault (SIGBUS) that ends the
+    ///   process;
+    /// * the file lies on a device that stays readable: a failing read is the same fault.
     ///
-    /// Renaming another file over the path, or deleting it, is safe. [`Opened::map`] has the reasons.
+    /// Renaming another file over the path, or deleting it, is safe: the map keeps the file it was
+    /// made from. `Build::write` publishes by rename and so keeps this
+    /// contract.
     ///
     /// # Errors
     ///
     /// [`OpenError`] when the system refuses or the head of the file is not in order.
     pub unsafe fn map(path: impl AsRef<Path>) -> Result<Self, OpenError> {
-        // SAFETY: the caller keeps the same contract that `Opened::map` asks for.
+        // SAFETY: the caller keeps the contract, which is the same.
         unsafe { Opened::map(path) }.map(Self::from)
     }
 }

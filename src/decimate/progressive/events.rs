@@ -56,7 +56,7 @@ pub struct Tally {
 /// All changes of topology of one decimation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EventLog {
-    /// The first [`MAX_LISTED`] events, in order.
+    /// The first 2,048 events, in order.
     pub events: Vec<Event>,
     tallies: Vec<Tally>,
 }
