@@ -51,6 +51,8 @@ mod text;
 mod unused;
 mod values;
 #[cfg(feature = "importers")]
+mod vertices;
+#[cfg(feature = "importers")]
 mod volume;
 
 #[cfg(feature = "importers")]

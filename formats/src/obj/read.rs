@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 
 use super::parse::{NONE, Statements};
-use crate::coordinates::{Coordinates, from_text};
+use crate::coordinates::Points;
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
 use crate::normals::{COMPUTED, smooth};
-use crate::unused::drop_bad_points;
+use crate::vertices::{assemble, place_of};
 use crate::{Attribute, Change, FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads an OBJ file.
@@ -26,22 +26,12 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
         start = end;
     }
     note_further_numbers(&statements, &mut report);
-    let mut points: Vec<[f64; 3]> =
+    let points: Vec<[f64; 3]> =
         vertices.triples.iter().map(|triple| statements.positions[triple[0] as usize]).collect();
     let mut attributes = attributes(&statements, &vertices, &mut report);
     fill_normals(&points, &faces, &vertices, &mut attributes, &mut report);
-    let place_of = |vertex: usize| {
-        let position = vertices.triples[vertex][0] as usize;
-        let place = statements.bad_places.binary_search_by_key(&position, |&(position, _)| position);
-        place.map_or(Place::item("vertex", position), |at| statements.bad_places[at].1)
-    };
-    drop_bad_points(&mut points, &mut attributes, &mut faces.corners_mut(), &place_of, &mut report)?;
-    let Coordinates { origin, positions, rounding } = from_text(&points)?;
-    let triangles = faces.into_triangles(&positions, &mut report);
-    if triangles.is_empty() {
-        return Err(MeshError::NoFaces { n_vertices: positions.len() });
-    }
-    Ok((TriangleMesh { origin, positions, triangles, attributes, rounding }, report))
+    let place_of = |vertex: usize| place_of(&statements.bad_places, vertices.triples[vertex][0] as usize);
+    assemble(Points::Text(points), attributes, faces, &place_of, report)
 }
 
 /// Registers numbers behind those that are read.

@@ -3,12 +3,12 @@
 
 use super::columns::Columns;
 use super::keyword::Keyword;
-use super::read::Vertices;
 use crate::coordinates::Points;
 use crate::error::{MeshError, Place};
 use crate::face_colors::{FaceColors, from_unit};
 use crate::faces::Faces;
 use crate::text::Scanner;
+use crate::vertices::Vertices;
 use crate::{FileReport, Kind};
 
 /// How a program writes its numbers. Geomview's own files are the first.

@@ -3,20 +3,13 @@
 use super::binary;
 use super::columns::Columns;
 use super::keyword::Keyword;
-use crate::coordinates::{Coordinates, Points, check_coordinate};
+use crate::coordinates::{Points, check_coordinate};
 use crate::error::{MeshError, Place};
 use crate::face_colors::{FaceColors, from_unit};
 use crate::faces::Faces;
 use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::{Attribute, FileReport, Kind, MeshFormat, TriangleMesh};
-
-/// The vertices of a file, and where those stand whose coordinates are no numbers of `f32`.
-pub(super) struct Vertices {
-    pub points: Points,
-    pub attributes: Vec<Attribute>,
-    /// Vertex and place, in the order of the vertices.
-    pub bad_places: Vec<(usize, Place)>,
-}
+use crate::vertices::Vertices;
+use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads an OFF file; the keyword `OFF` may be missing, as its definition allows.
 ///
@@ -39,7 +32,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
     if word == Some(b"BINARY") {
         scanner.next_line();
         let (vertices, faces) = binary::read(&scanner, keyword, &mut report)?;
-        return assemble(vertices, faces, report);
+        return vertices.into_mesh(faces, report);
     }
     let n_vertices = count(&scanner, word, "vertices")?;
     let word = scanner.word();
@@ -51,27 +44,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
     if let Some(word) = scanner.word() {
         report.count(Kind::TrailingByte, (word.len() + scanner.n_bytes_left()) as u64);
     }
-    assemble(vertices, faces, report)
-}
-
-/// Puts the parts of a mesh together.
-fn assemble(
-    vertices: Vertices,
-    mut faces: Faces,
-    mut report: FileReport,
-) -> Result<(TriangleMesh, FileReport), MeshError> {
-    let Vertices { mut points, mut attributes, bad_places } = vertices;
-    let place_of = |vertex: usize| {
-        let place = bad_places.binary_search_by_key(&vertex, |&(vertex, _)| vertex);
-        place.map_or(Place::item("vertex", vertex), |at| bad_places[at].1)
-    };
-    points.drop_bad(&mut attributes, &mut faces.corners_mut(), &place_of, &mut report)?;
-    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
-    let triangles = faces.into_triangles(&positions, &mut report);
-    if triangles.is_empty() {
-        return Err(MeshError::NoFaces { n_vertices: positions.len() });
-    }
-    Ok((TriangleMesh { origin, positions, triangles, attributes, rounding }, report))
+    vertices.into_mesh(faces, report)
 }
 
 /// A count that the bytes left can hold, a line of a digit each at least.

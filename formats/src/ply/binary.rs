@@ -4,10 +4,11 @@ use super::face::{Record, Wanted};
 use super::header::{Element, Encoding, PropertyKind};
 use super::read::{Values, Visit, check_index};
 use super::vertices::{
-    Field, Records, Vertices, coordinate_properties, packed_fields, scalar_value, take_apart, value_bytes,
+    Field, Records, coordinate_properties, packed_fields, scalar_value, take_apart, value_bytes,
 };
 use crate::error::{MeshError, Place};
 use crate::faces::Faces;
+use crate::vertices::Vertices;
 use crate::{FileReport, ScalarType};
 
 /// The bytes after the header.

@@ -5,11 +5,10 @@ use super::corners::CornerTexcoords;
 use super::face::{Record, Wanted};
 use super::header::{Element, Encoding, Header};
 use super::text::{Layout, Text};
-use super::vertices::Vertices;
-use crate::coordinates::Coordinates;
 use crate::error::{MeshError, Place};
 use crate::face_colors::FaceColors;
 use crate::faces::Faces;
+use crate::vertices::Vertices;
 use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads a PLY file.
@@ -116,33 +115,12 @@ fn read_elements(header: &Header, mut values: impl Values) -> Result<(TriangleMe
             .remark(format!("the rest of {n_lines} lines is left out: it is more than the header declares"));
     }
     report.count(Kind::TrailingByte, values.n_trailing_bytes() as u64);
-    let vertices =
+    let mut vertices =
         vertices.ok_or(MeshError::Missing { place: Place::Part("header"), what: "vertex element" })?;
-    assemble(vertices, faces, texcoords, report)
-}
-
-/// Puts the parts of a mesh together.
-fn assemble(
-    vertices: Vertices,
-    mut faces: Faces,
-    texcoords: Option<CornerTexcoords>,
-    mut report: FileReport,
-) -> Result<(TriangleMesh, FileReport), MeshError> {
-    let Vertices { mut points, mut attributes, bad_places } = vertices;
     if let Some(texcoords) = texcoords {
-        texcoords.finish(&mut points, &mut attributes, &mut report);
+        texcoords.finish(&mut vertices.points, &mut vertices.attributes, &mut report);
     }
-    let place_of = |vertex: usize| {
-        let place = bad_places.binary_search_by_key(&vertex, |&(vertex, _)| vertex);
-        place.map_or(Place::item("vertex", vertex), |at| bad_places[at].1)
-    };
-    points.drop_bad(&mut attributes, &mut faces.corners_mut(), &place_of, &mut report)?;
-    let Coordinates { origin, positions, rounding } = points.into_coordinates()?;
-    let triangles = faces.into_triangles(&positions, &mut report);
-    if triangles.is_empty() {
-        return Err(MeshError::NoFaces { n_vertices: positions.len() });
-    }
-    Ok((TriangleMesh { origin, positions, triangles, attributes, rounding }, report))
+    vertices.into_mesh(faces, report)
 }
 
 /// Number of vertices that the header announces, known before any face is read.

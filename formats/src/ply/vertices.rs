@@ -8,6 +8,7 @@ use super::names::plan_attributes;
 use crate::coordinates::Points;
 use crate::error::{MeshError, Place};
 use crate::report::ItemId;
+use crate::vertices::Vertices;
 use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// Vertex records, one after another, all of the same layout.
@@ -61,14 +62,6 @@ pub(crate) fn coordinate_properties(element: &Element) -> Result<[usize; 3], Mes
         element.properties.iter().position(is_it).ok_or(missing)
     };
     Ok([place_of("x")?, place_of("y")?, place_of("z")?])
-}
-
-/// The vertices of a file, and where those stand whose coordinates are no numbers of `f32`.
-pub(crate) struct Vertices {
-    pub points: Points,
-    pub attributes: Vec<Attribute>,
-    /// Vertex and place, in the order of the vertices; only of text.
-    pub bad_places: Vec<(usize, Place)>,
 }
 
 /// Positions and attributes of the vertices. One pass for the positions and one for each attribute.
