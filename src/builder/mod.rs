@@ -28,14 +28,15 @@ use std::ops::ControlFlow;
 
 /// What a build leaves: the history of a simplification, and what it proves.
 ///
-/// Only [`build()`] and [`build_with`] make one, so what it [writes](Self::write) of its method and its bound is true.
+/// Only [`build()`] and [`build_with`] make one, so what it [writes](Self::write) of its method and
+/// its bound is true.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Build {
     options: BuildOptions,
     n_vertices_in: usize,
     n_triangles_in: usize,
-    /// The input after repair, and behind its vertices those that were born later. Its triangles, which the history has as
-    /// well, stay for the operations of a progressive build.
+    /// The input after repair, and behind its vertices those that were born later. Its triangles,
+    /// which the history has as well, stay for the operations of a progressive build.
     pub(crate) mesh: TriangleMesh,
     history: History,
     repairs: RepairReport,
@@ -45,7 +46,8 @@ pub struct Build {
 }
 
 impl Build {
-    /// What the history's indices refer to: the vertices of the input after repair, and behind them those that were born later.
+    /// What the history's indices refer to: the vertices of the input after repair, and behind them
+    /// those that were born later.
     pub fn vertices(&self) -> Vertices<'_> {
         (&self.mesh).into()
     }
@@ -75,7 +77,8 @@ impl Build {
         &self.repairs
     }
 
-    /// Bound on the distance of what the repair dropped from what it left, in mesh units; part of the error of every level.
+    /// Bound on the distance of what the repair dropped from what it left, in mesh units; part of
+    /// the error of every level.
     pub fn dropped_distance(&self) -> f64 {
         self.dropped_distance
     }
@@ -85,20 +88,22 @@ impl Build {
         self.progressive.as_ref()
     }
 
-    /// Levels with at least this many triangles carry a certified error, those below it an estimate. `None` if the bound that was
-    /// asked for holds for all of them.
+    /// Levels with at least this many triangles carry a certified error, those below it an
+    /// estimate. `None` if the bound that was asked for holds for all of them.
     pub fn n_certified_triangles(&self) -> Option<usize> {
         let last = self.progressive.as_ref()?.n_certified_steps.checked_sub(1)?;
         Some(self.history.n_alive(last))
     }
 
-    /// The operations of a progressive build as a stream, which [`StoreOptions::operations`](crate::store::StoreOptions) also
-    /// puts into a file. O(n) but for coding, which is most of it.
+    /// The operations of a progressive build as a stream, which
+    /// [`StoreOptions::operations`](crate::store::StoreOptions) also puts into a file. O(n) but for
+    /// coding, which is most of it.
     ///
     /// # Errors
     ///
-    /// [`StreamError::NoOperations`] for a build of another decimator; [`StreamError::Meaningless`] for one whose stars of
-    /// hundreds of thousands of triangles moved so often that no reader would follow.
+    /// [`StreamError::NoOperations`] for a build of another decimator; [`StreamError::Meaningless`]
+    /// for one whose stars of hundreds of thousands of triangles moved so often that no reader
+    /// would follow.
     pub fn operations(&self) -> Result<Encoded, StreamError> {
         let report = self.progressive.as_ref().ok_or(StreamError::NoOperations)?;
         encode(&self.mesh, &report.trace)
@@ -107,13 +112,13 @@ impl Build {
 
 /// Repairs `mesh` and simplifies it as the options say, on the current rayon pool.
 ///
-/// A mesh that is given away takes less memory than one that is lent: its arrays become those of the decimation. The result
-/// does not depend on that, nor on the number of threads.
+/// A mesh that is given away takes less memory than one that is lent: its arrays become those of
+/// the decimation. The result does not depend on that, nor on the number of threads.
 ///
 /// # Errors
 ///
-/// [`BuildError`] for a mesh without triangles or with coordinates or indices that mean nothing, and for options out of their
-/// range.
+/// [`BuildError`] for a mesh without triangles or with coordinates or indices that mean nothing,
+/// and for options out of their range.
 ///
 /// ```
 /// use nephrite::{BuildOptions, build, generate};
@@ -179,9 +184,7 @@ fn simplify(mesh: TriangleMesh, options: &BuildOptions, observer: Observer<'_>) 
     };
     let watch = |n_triangles, error| tell(Phase::Decimate, n_triangles, error + dropped_distance);
     let (mesh, mut history, progressive) = decimate(input, options, &watch)?;
-    if dropped_distance > 0.0 {
-        history.errors.iter_mut().for_each(|error| *error += dropped_distance);
-    }
+    history.errors.iter_mut().for_each(|error| *error += dropped_distance);
     Ok(Build {
         options: *options,
         n_vertices_in,
@@ -194,8 +197,8 @@ fn simplify(mesh: TriangleMesh, options: &BuildOptions, observer: Observer<'_>) 
     })
 }
 
-/// Runs the decimator that was asked for: the mesh that its history refers to, the history, and what
-/// else there is to tell.
+/// Runs the decimator that was asked for: the mesh that its history refers to, the history, and
+/// what else there is to tell.
 fn decimate(
     input: Input<Repaired>,
     options: &BuildOptions,

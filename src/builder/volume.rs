@@ -16,7 +16,8 @@ use std::ops::ControlFlow;
 
 /// What a build of a volume leaves: the history of a fusion, and how many fusions there were.
 ///
-/// Only [`build_volume`] and [`build_volume_with`] make one, so what it [writes](Self::write) of its method is true.
+/// Only [`build_volume`] and [`build_volume_with`] make one, so what it [writes](Self::write) of
+/// its method is true.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeBuild {
     pub(super) options: VolumeOptions,
@@ -33,13 +34,15 @@ pub struct VolumeBuild {
 }
 
 impl VolumeBuild {
-    /// What the history's indices refer to: the vertices of the input after repair, and behind them all fusion points.
+    /// What the history's indices refer to: the vertices of the input after repair, and behind them
+    /// all fusion points.
     pub fn vertices(&self) -> Vertices<'_> {
         (&self.mesh).into()
     }
 
-    /// Every tetrahedron that ever lived. Its errors bound the distance between the boundary of a step and that of the input
-    /// both ways; its deviations are estimates: of the planar quadric distance, and of every field.
+    /// Every tetrahedron that ever lived. Its errors bound the distance between the boundary of a
+    /// step and that of the input both ways; its deviations are estimates: of the planar quadric
+    /// distance, and of every field.
     pub fn history(&self) -> &History<4> {
         &self.history
     }
@@ -64,14 +67,14 @@ impl VolumeBuild {
         &self.repairs
     }
 
-    /// Bound on the distance between the boundary of the input and that of the repaired mesh, both ways, in mesh units; part of
-    /// the error of every level.
+    /// Bound on the distance between the boundary of the input and that of the repaired mesh, both
+    /// ways, in mesh units; part of the error of every level.
     pub fn dropped_distance(&self) -> f64 {
         self.dropped_distance
     }
 
-    /// Area of the walls inside the boundary, both sheets, in square mesh units: faces that lie on others the other way round, as
-    /// where nodes hang at the edge of a refined part.
+    /// Area of the walls inside the boundary, both sheets, in square mesh units: faces that lie on
+    /// others the other way round, as where nodes hang at the edge of a refined part.
     pub fn inner_wall_area(&self) -> f64 {
         self.inner_wall_area
     }
@@ -82,11 +85,13 @@ impl VolumeBuild {
     }
 }
 
-/// Repairs `mesh` and fuses its tetrahedra as the options say. The result does not depend on the number of threads.
+/// Repairs `mesh` and fuses its tetrahedra as the options say. The result does not depend on the
+/// number of threads.
 ///
 /// # Errors
 ///
-/// [`BuildError`] for a mesh without tetrahedra or that contradicts itself, and for options out of their range.
+/// [`BuildError`] for a mesh without tetrahedra or that contradicts itself, and for options out of
+/// their range.
 ///
 /// ```
 /// use nephrite::{VolumeOptions, build_volume, generate};
@@ -137,9 +142,7 @@ pub fn build_volume_with(
         lock_boundary: options.lock_boundary,
     };
     let Decimated { mesh, mut history, report } = fusion::run(input, &options.fusion, &watch)?;
-    if dropped_distance > 0.0 {
-        history.errors.iter_mut().for_each(|error| *error += dropped_distance);
-    }
+    history.errors.iter_mut().for_each(|error| *error += dropped_distance);
     Ok(VolumeBuild {
         options: *options,
         n_vertices_in,
@@ -183,7 +186,8 @@ fn boundary_of(RepairedVolume { mesh, points, .. }: &RepairedVolume) -> (Vec<Tri
     faces.map(|(t, face)| (face.map(|i| place(t, i)), place(t, apex(face)))).unzip()
 }
 
-/// Bound on the distance between the boundary of the input and that of the repaired mesh, both ways.
+/// Bound on the distance between the boundary of the input and that of the repaired mesh, both
+/// ways.
 fn bound_of_lost(lost: &LostParts, boundary: &[Triangle]) -> f64 {
     let of_peeled =
         bound_of_pieces(&lost.peeled, &lost.bared).max(bound_of_pieces(&lost.bared, &lost.peeled));

@@ -11,6 +11,7 @@ mod hole;
 mod limits;
 mod locked;
 mod numbering;
+mod places;
 mod renumbering;
 mod repair;
 mod stars;

@@ -1,4 +1,4 @@
-//! From the triangles of a file to the triangles of a mesh: weld, drop what is no surface, count
+//! From the triangles of a file to the triangles of a mesh: weld, drop degenerate triangles, count
 //! everything.
 //!
 //! The rules, in this order:
@@ -9,18 +9,18 @@
 //!    their attributes differ, and share one *point* in the topology, so that the two sides of a
 //!    seam never come apart. Where nothing but their normals differs they share their *look* as
 //!    well, and the seam binds nobody: flat shading would make a seam of every edge.
-//! 3. A triangle with two corners on one point is no surface: dropped.
+//! 3. A triangle with two corners on one point has no area and is dropped.
 //! 4. A triangle with the same three points in the same orientation as an earlier one is dropped.
 //!    The opposite orientation is kept: two-sided sheets are drawn that way.
 //! 5. A triangle of zero area with three distinct points is kept: its neighbours are joined through
 //!    it.
 //! 6. Vertices that no triangle uses are dropped.
 
+use super::places::{n_moved, order_by, position_key};
 use crate::flat::{NO_INDEX, canonical};
 use crate::geometry::distance::Triangle;
 use crate::geometry::vector::{cross, length_sq, sub, widen};
 use nephrite_formats::{Attribute, TriangleMesh};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -73,7 +73,7 @@ pub(crate) struct Repaired {
 pub(crate) fn repair(mut mesh: TriangleMesh) -> Repaired {
     let mut report = RepairReport::default();
     let Weld { vertices, points, looks } = weld(&mesh);
-    report.vertices_welded = count_moved(&vertices);
+    report.vertices_welded = n_moved(&vertices);
 
     let degenerate = take_degenerate(&mut mesh.triangles, &points);
     report.triangles_degenerate = degenerate.len();
@@ -112,11 +112,12 @@ struct Weld {
 
 fn weld(mesh: &TriangleMesh) -> Weld {
     let n_vertices = vertex_count(mesh);
-    let order = order_by(mesh.positions.len(), |v| position_key(mesh, v));
+    let key = |v: u32| position_key(mesh.positions[v as usize]);
+    let order = order_by(mesh.positions.len(), key);
     let mut vertices: Vec<u32> = (0..n_vertices).collect();
     let (mut points, mut looks) = (vertices.clone(), vertices.clone());
     let mut sorted = vec![];
-    for same_place in order.chunk_by(|&a, &b| position_key(mesh, a) == position_key(mesh, b)) {
+    for same_place in order.chunk_by(|&a, &b| key(a) == key(b)) {
         let &[point, _, ..] = same_place else { continue };
         sorted.clear();
         sorted.extend_from_slice(same_place);
@@ -144,17 +145,6 @@ fn vertex_count(mesh: &TriangleMesh) -> u32 {
     mesh.positions.len() as u32
 }
 
-/// The numbers below `n` in ascending order of their keys, then of themselves.
-#[expect(clippy::cast_possible_truncation, reason = "the lowest bits are the number")]
-fn order_by(n: usize, key: impl Fn(u32) -> [u32; 3]) -> Vec<u32> {
-    let with_number = |number: u32| {
-        key(number).into_iter().chain([number]).fold(0_u128, |all, word| all << u32::BITS | u128::from(word))
-    };
-    let mut keys: Vec<u128> = (0..).take(n).map(with_number).collect();
-    keys.par_sort_unstable();
-    keys.into_iter().map(|key| key as u32).collect()
-}
-
 /// By look, then by normal.
 fn compare_attributes_of(mesh: &TriangleMesh, a: u32, b: u32) -> Ordering {
     compare_looks(mesh, a, b).then_with(|| {
@@ -177,18 +167,9 @@ fn is_normal(attribute: &Attribute) -> bool {
     attribute.name == "normal"
 }
 
-/// The bits of a position, with `-0` turned into `0`.
-fn position_key(mesh: &TriangleMesh, v: u32) -> [u32; 3] {
-    mesh.positions[v as usize].map(|coordinate| (coordinate + 0.0).to_bits())
-}
-
 fn value(attribute: &Attribute, v: u32) -> &[u8] {
     let stride = attribute.stride_bytes();
     &attribute.bytes[v as usize * stride..][..stride]
-}
-
-fn count_moved(vertices: &[u32]) -> usize {
-    vertices.iter().zip(0..).filter(|&(&to, from): &(&u32, u32)| to != from).count()
 }
 
 /// Takes out the triangles with fewer than three points; gives the points of their corners, in

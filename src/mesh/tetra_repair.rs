@@ -1,26 +1,32 @@
 //! From the tetrahedra of a file to tetrahedra that fit each other: weld, drop, turn, right, count
 //! everything.
 //!
-//! A *point* is a place of the mesh. A *vertex* is a point with one value of each field. Where a field jumps, at a fault or an
-//! interface, a point has several vertices, each of which belongs to the tetrahedra on one side. Points decide how tetrahedra fit.
+//! A *point* is a place of the mesh. A *vertex* is a point with one value of each field. Where a
+//! field jumps, at a fault or an interface, a point has several vertices, each of which belongs to
+//! the tetrahedra on one side. Points decide how tetrahedra fit.
 //!
 //! The rules, in this order:
 //!
-//! 1. Vertices at one position become one point if the mesh stays one by it: everywhere if no face gets a third tetrahedron and
-//!    no edge of the boundary a third face; otherwise only within tetrahedra, which are flat and go. A grid that is wrapped
-//!    around on itself with crossing diagonals keeps its seam that way. Vertices of one point become one vertex if all their
+//! 1. Vertices at one position become one point if the mesh stays one by it: everywhere if no face
+//!    gets a third tetrahedron and no edge of the boundary a third face; otherwise only within
+//!    tetrahedra, which are flat and go. A grid that is wrapped around on itself with crossing
+//!    diagonals keeps its seam that way. Vertices of one point become one vertex if all their
 //!    values agree.
-//! 2. A tetrahedron with two corners in one point, or with the points of an earlier one, is dropped.
-//! 3. Corners in the wrong order are put right: where the volume is negative and the faces do not fit those of the neighbours,
-//!    or all are negative.
-//! 4. What is negative still is turned inside out by its points. It is righted by moving one point inside the mesh towards
-//!    the middle of its neighbours, if that makes all volumes around it positive. One whose points are all on the boundary is
-//!    dropped if two of its faces are, and the boundary goes over to its other two. Others are kept.
-//! 5. A tetrahedron of zero volume with four distinct points is kept: its neighbours are joined through it.
+//! 2. A tetrahedron with two corners in one point, or with the points of an earlier one, is
+//!    dropped.
+//! 3. Corners in the wrong order are put right: where the volume is negative and the faces do not
+//!    fit those of the neighbours, or all are negative.
+//! 4. What is negative still is turned inside out by its points. It is righted by moving one point
+//!    inside the mesh towards the middle of its neighbours, if that makes all volumes around it
+//!    positive. One whose points are all on the boundary is dropped if two of its faces are, and
+//!    the boundary goes over to its other two. Others are kept.
+//! 5. A tetrahedron of zero volume with four distinct points is kept: its neighbours are joined
+//!    through it.
 //! 6. Vertices that no tetrahedron uses are dropped.
 
 use super::UsedVertices;
-use super::tetra_weld::{Weld, ascending, is_degenerate, is_first, n_moved, weld};
+use super::places::n_moved;
+use super::tetra_weld::{Weld, ascending, is_degenerate, is_first, weld};
 use super::tetrahedra::{FACES, Sides, boundary_triangles, faces_by_least_vertex};
 use crate::flat::{Groups, NO_INDEX};
 use crate::geometry::distance::Triangle;
@@ -64,9 +70,11 @@ pub struct TetrahedronRepairReport {
     /// Faces of three tetrahedra or more, or of two on the same side, whose corners stay where they
     /// are.
     pub faces_crowded: usize,
-    /// Faces of the boundary that lie on others the other way round, as at the hanging nodes of a refined part: a wall inside.
+    /// Faces of the boundary that lie on others the other way round, as at the hanging nodes of a
+    /// refined part: a wall inside.
     pub faces_at_hanging_nodes: usize,
-    /// Values of fields that are not a number (NaN), kept. Deviations of their fields are over the other values.
+    /// Values of fields that are not a number (NaN), kept. Deviations of their fields are over the
+    /// other values.
     pub values_nan: usize,
     /// Values of fields that are infinite, kept. Deviations of their fields are over the other
     /// values.
@@ -78,7 +86,8 @@ pub struct TetrahedronRepairReport {
 pub(crate) struct RepairedVolume {
     /// Every vertex is used.
     pub mesh: TetrahedronMesh,
-    /// The point of each vertex, named by its first vertex; `None` if each vertex is a point of its own.
+    /// The point of each vertex, named by its first vertex; `None` if each vertex is a point of its
+    /// own.
     pub points: Option<Vec<u32>>,
     /// What the input's boundary has and that of the mesh does not, and the other way round.
     pub lost: LostParts,
@@ -86,7 +95,8 @@ pub(crate) struct RepairedVolume {
     pub report: TetrahedronRepairReport,
 }
 
-/// Where the boundary of a repaired mesh is not that of the input. Triangles may be segments and points.
+/// Where the boundary of a repaired mesh is not that of the input. Triangles may be segments and
+/// points.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LostParts {
     /// Tetrahedra that were dropped as degenerate, if nothing of the mesh covers them.
@@ -128,7 +138,8 @@ pub(crate) fn repair_tetrahedra(input: &TetrahedronMesh) -> RepairedVolume {
     RepairedVolume { mesh, points, lost, report }
 }
 
-/// Points named by their first vertex, from names below `n_names`; `None` if each vertex has its own.
+/// Points named by their first vertex, from names below `n_names`; `None` if each vertex has its
+/// own.
 fn named_by_first(points: &[u32], n_names: usize) -> Option<Vec<u32>> {
     let mut firsts = vec![NO_INDEX; n_names];
     let name = |(v, &point): (u32, &u32)| {
@@ -184,8 +195,8 @@ impl Volume {
         FACES[corner].map(|i| widen(self.mesh.positions[self.mesh.tetrahedra[tetrahedron][i] as usize]))
     }
 
-    /// Sets apart the degenerate tetrahedra, each as its ascending points, that are no face, edge or corner of the others. O(n) if
-    /// there are any.
+    /// Sets apart the degenerate tetrahedra, each as its ascending points, that are no face, edge
+    /// or corner of the others. O(n) if there are any.
     fn find_loose(&self, mut degenerate: Vec<[u32; 3]>, lost: &mut LostParts) {
         if degenerate.is_empty() {
             return;
@@ -216,7 +227,8 @@ impl Volume {
         }
     }
 
-    /// The volume over the vertices that are used, with the fields of `input`, and which of its vertices those are.
+    /// The volume over the vertices that are used, with the fields of `input`, and which of its
+    /// vertices those are.
     fn keep_used(self, input: &TetrahedronMesh, points: &[u32]) -> (TetrahedronMesh, Vec<u32>) {
         let Self { mesh, corners: mut tetrahedra } = self;
         let used = UsedVertices::new(input.positions.len(), tetrahedra.as_flattened());
@@ -265,7 +277,8 @@ fn turn(volume: &mut Volume, report: &mut TetrahedronRepairReport) {
     if negative.len() == volume.mesh.tetrahedra.len() {
         return;
     }
-    // Positive now, but those whose every shared face is seen from the side of the neighbour were in order before.
+    // Positive now, but those whose every shared face is seen from the side of the neighbour were
+    // in order before.
     let fits = fitting_faces(&volume.mesh);
     for i in negative {
         let [n_fitting, n_shared] = fits[i];
@@ -328,7 +341,8 @@ fn right(mesh: &mut TetrahedronMesh, report: &mut TetrahedronRepairReport) {
     }
 }
 
-/// Drops inverted tetrahedra with two faces on the boundary whose other two meet in an edge inside, by rule 4.
+/// Drops inverted tetrahedra with two faces on the boundary whose other two meet in an edge inside,
+/// by rule 4.
 fn peel(volume: &mut Volume, report: &mut TetrahedronRepairReport, lost: &mut LostParts) {
     let mesh = &volume.mesh;
     let is_inverted = |&i: &usize| mesh.six_volumes(mesh.tetrahedra[i]) < 0.0;

@@ -1,5 +1,6 @@
 //! Which vertices of tetrahedra are one point, and which of those are one vertex.
 
+use super::places::{n_moved, order_by, position_key};
 use super::tetrahedra::{FACES, faces_by_least_vertex};
 use crate::flat::DisjointSets;
 use nephrite_formats::{Attribute, ScalarType, TetrahedronMesh};
@@ -12,7 +13,8 @@ pub(super) struct Weld {
     pub vertices: Vec<u32>,
     /// Vertices at the position of another that are points of their own.
     pub n_apart: usize,
-    /// The distinct points of each tetrahedron that has fewer than four, ascending, the largest one repeated.
+    /// The distinct points of each tetrahedron that has fewer than four, ascending, the largest one
+    /// repeated.
     pub degenerate: Vec<[u32; 3]>,
 }
 
@@ -32,8 +34,8 @@ pub(super) fn weld(input: &TetrahedronMesh) -> Weld {
     Weld { degenerate: degenerate.collect(), points, vertices, n_apart }
 }
 
-/// The point of each vertex, named by the first vertex there: all vertices at one position, or those that a tetrahedron has both of
-/// where the mesh would not stay one otherwise. O(n log n).
+/// The point of each vertex, named by the first vertex there: all vertices at one position, or
+/// those that a tetrahedron has both of where the mesh would not stay one otherwise. O(n log n).
 /// Gives besides the number of vertices at the position of another that are points of their own.
 fn points_and_apart(mesh: &TetrahedronMesh) -> (Vec<u32>, usize) {
     let n_vertices = mesh.positions.len();
@@ -58,12 +60,8 @@ pub(crate) fn has_coincident(mesh: &TetrahedronMesh) -> bool {
     n_moved(&first_at_position(mesh)) > 0
 }
 
-/// How many vertices have another number than their own.
-pub(super) fn n_moved(numbers: &[u32]) -> usize {
-    (0u32..).zip(numbers).filter(|(v, number)| v != *number).count()
-}
-
-/// The tetrahedra of a mesh that have four points and are the first with these: over points, and over vertices. O(n log n).
+/// The tetrahedra of a mesh that have four points and are the first with these: over points, and
+/// over vertices. O(n log n).
 pub(crate) fn fitting(mesh: &TetrahedronMesh) -> (Vec<[u32; 4]>, Vec<[u32; 4]>) {
     let (points, _) = points_and_apart(mesh);
     let over_points = mesh.tetrahedra.iter().map(|t| t.map(|v| points[v as usize]));
@@ -137,10 +135,8 @@ fn bits(attribute: &Attribute, v: u32) -> impl Iterator<Item = u64> {
 
 /// The first vertex at the position of each, `-0` equal to `0`.
 fn first_at_position(mesh: &TetrahedronMesh) -> Vec<u32> {
-    let key = |v: u32| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits());
-    #[expect(clippy::cast_possible_truncation, reason = "MAX_VERTICES is below")]
-    let mut order: Vec<u32> = (0..mesh.positions.len() as u32).collect();
-    order.sort_unstable_by_key(|&v| (key(v), v));
+    let key = |v: u32| position_key(mesh.positions[v as usize]);
+    let order = order_by(mesh.positions.len(), key);
     let mut firsts: Vec<u32> = order.clone();
     for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
         same.iter().for_each(|&v| firsts[v as usize] = same[0]);

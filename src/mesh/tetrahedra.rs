@@ -1,7 +1,7 @@
 //! Tetrahedra while they are being fused: flat arrays, with the star of every vertex at hand.
 //!
 //! A tetrahedron keeps its slot while its corners change, and a slot is never used again. So the
-//! star of a vertex stays right without being touched when tetrahedra around it die: whoever reads
+//! star of a vertex stays right without being touched when tetrahedra around it die: the reader of
 //! it passes over the dead. A new vertex gets its star at the end of the pool, once.
 
 use crate::flat::{Groups, NO_INDEX};
