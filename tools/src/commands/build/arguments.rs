@@ -58,8 +58,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "DEG", value_parser = angle)]
     pub(super) feature_angle: Option<f64>,
 
-    /// Keep the vertices on the boundary of a surface or a volume at every level, so that parts that
-    /// meet there fit whatever their levels
+    /// Keep the vertices on the boundary of a surface or a volume at every level, so that parts
+    /// that meet there fit whatever their levels
     #[arg(long)]
     pub(super) lock_boundary: bool,
 

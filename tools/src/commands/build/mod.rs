@@ -3,6 +3,7 @@
 mod arguments;
 mod database;
 mod decimate;
+mod facts;
 mod job;
 mod manifest;
 mod parts;

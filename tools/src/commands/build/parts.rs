@@ -17,7 +17,7 @@ pub(super) struct Parts {
 
 impl Parts {
     /// A folder stands for all meshes and volumes in it and in its folders. The database itself,
-    /// `db`, is none of them.
+    /// `db`, is not one of them.
     pub(super) fn list<'a>(named: impl Iterator<Item = &'a PathBuf>, db: &Path) -> Result<Self, Failure> {
         // Not there yet, it holds nothing that could be taken for a part.
         let db = fs::canonicalize(db).unwrap_or_default();

@@ -1,12 +1,13 @@
 //! A volume built by fusion of its tetrahedra.
 
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use nephrite::{StoreReport, TetrahedronMesh, VolumeBuild, check_attributes};
+use nephrite::{TetrahedronMesh, VolumeBuild, check_attributes};
 use nephrite_formats::FileReport;
 use serde_json::{Value, json};
 
+use super::facts::Facts;
 use super::job::{Built, Job};
 use crate::failure::Failure;
 use crate::report::Report;
@@ -32,23 +33,26 @@ pub(super) fn run(job: &Job<'_>, mesh: TetrahedronMesh, read: &FileReport) -> Re
     drop((mesh, bar));
     interrupt::check()?;
     let stored = job.write(&Built::Volume(&build))?;
-    let time = start.elapsed();
-    let outcome = Outcome { bounding_diagonal, read, build, stored, fusion_seconds, half_seconds, time };
+    let facts = Facts {
+        bounding_diagonal,
+        read,
+        repairs: json!(build.repairs()),
+        dropped_distance: build.dropped_distance(),
+        stored,
+        time: start.elapsed(),
+    };
+    let outcome = Outcome { build, fusion_seconds, half_seconds, facts };
     Ok(Report { text: outcome.text(job), json: outcome.json() })
 }
 
 /// A build that is done.
 struct Outcome<'a> {
-    /// In mesh units.
-    bounding_diagonal: f64,
-    read: &'a FileReport,
     build: VolumeBuild,
-    stored: StoreReport,
     /// Time of the fusions.
     fusion_seconds: f64,
     /// Time of the fusions until half of the tetrahedra were gone.
     half_seconds: Option<f64>,
-    time: Duration,
+    facts: Facts<'a>,
 }
 
 impl Outcome<'_> {
@@ -73,16 +77,13 @@ impl Outcome<'_> {
     }
 
     fn json(&self) -> Value {
-        let Self { build, stored, .. } = self;
+        let Self { build, facts, .. } = self;
         let fusions = build.fusions();
-        json!({
+        facts.join(json!({
             "tetrahedra_in": build.n_tetrahedra_in(),
             "vertices_in": build.n_vertices_in(),
-            "tetrahedra_stored": stored.n_lifetimes,
-            "levels": stored.n_levels,
-            "coarsest_tetrahedra": stored.n_coarsest,
-            "max_error": stored.max_error,
-            "bounding_diagonal": self.bounding_diagonal,
+            "tetrahedra_stored": facts.stored.n_lifetimes,
+            "coarsest_tetrahedra": facts.stored.n_coarsest,
             "fusions": fusions.n_fusions,
             "tetrahedron_fusions": fusions.n_tetrahedron_fusions,
             "tetrahedra_left_by_tetrahedron_fusions": fusions.n_left_by_tetrahedra,
@@ -91,25 +92,13 @@ impl Outcome<'_> {
             "deviations": self.deviations(),
             "fusion_seconds": self.fusion_seconds,
             "half_seconds": self.half_seconds,
-            "seconds": self.time.as_secs_f64(),
-            "file_bytes": stored.file_bytes,
-            "reading": self.read,
-            "notes": self.read.notes(),
-            "repairs": build.repairs(),
-            "dropped_distance": build.dropped_distance(),
             "inner_wall_area": build.inner_wall_area(),
-        })
+        }))
     }
 
-    /// What the repair did, how far what it dropped lies from the rest, and what walls are inside.
+    /// What the repair did, and what walls are inside.
     fn repaired(&self) -> String {
-        let mut text = figures::tally(&json!(self.build.repairs()));
-        if self.build.dropped_distance() > 0.0 {
-            let distance = figures::error(self.build.dropped_distance(), self.bounding_diagonal);
-            text += &format!(
-                "; what was dropped lies up to {distance} from the rest, which every level's error counts"
-            );
-        }
+        let mut text = self.facts.repaired();
         if self.build.inner_wall_area() > 0.0 {
             let area = figures::significant(self.build.inner_wall_area());
             text += &format!("; hanging nodes make an inner wall of area {area}");
@@ -118,7 +107,8 @@ impl Outcome<'_> {
     }
 
     fn text(&self, job: &Job<'_>) -> String {
-        let Self { build, stored, .. } = self;
+        let Self { build, facts, .. } = self;
+        let stored = &facts.stored;
         let fusions = build.fusions();
         let [n_tetrahedra, n_vertices] = [build.n_tetrahedra_in(), build.n_vertices_in()].map(figures::count);
         let [n_coarsest, n_stored] = [stored.n_coarsest, stored.n_lifetimes].map(figures::count);
@@ -128,7 +118,7 @@ impl Outcome<'_> {
         let [per_tetrahedron, per_fusion] = self.per_fusion();
         let list = figures::list(&[
             ("volume", format!("{n_tetrahedra} tetrahedra, {n_vertices} vertices")),
-            ("read", figures::reading(self.read)),
+            ("read", figures::reading(facts.read)),
             ("repaired", self.repaired()),
             (
                 "fusions",
@@ -138,12 +128,9 @@ impl Outcome<'_> {
                 ),
             ),
             ("levels", format!("{}, down to {n_coarsest} tetrahedra", stored.n_levels)),
-            (
-                "boundary",
-                format!("within {}, proven", figures::error(stored.max_error, self.bounding_diagonal)),
-            ),
+            ("boundary", format!("within {}, proven", facts.error(stored.max_error))),
             ("stored", format!("{n_stored} tetrahedra in {}", figures::bytes(stored.file_bytes))),
-            ("time", figures::time(self.time)),
+            ("time", figures::time(facts.time)),
         ]);
         format!("{}\n{list}", job.target)
     }
