@@ -98,7 +98,7 @@ impl TriangleMesh {
     ///
     /// # Panics
     ///
-    /// Where there is no such vertex.
+    /// If there is no such vertex.
     pub fn point(&self, vertex: u32) -> [f64; 3] {
         let position = self.positions[vertex as usize];
         std::array::from_fn(|axis| self.origin[axis] + f64::from(position[axis]))

@@ -1,8 +1,9 @@
-//! The tetrahedral mesh that volume readers produce and volume writers consume: flat arrays, nothing derived.
+//! The tetrahedral mesh that volume readers produce and volume writers consume: flat arrays,
+//! nothing derived.
 //!
-//! Coordinates follow the rule of [`crate::mesh`]. Fields are per-vertex attributes: they keep the name and the type that
-//! the file gave them. Several values of one field, as the steps of a simulation give them, are several attributes or several
-//! components of one.
+//! Coordinates follow the rule of [`crate::mesh`]. Fields are per-vertex attributes: they keep the
+//! name and the type that the file gave them. Several values of one field, as the steps of a
+//! simulation give them, are several attributes or several components of one.
 
 use crate::Attribute;
 use crate::fault::{Arrays, MeshFault};
@@ -22,16 +23,18 @@ use crate::fault::{Arrays, MeshFault};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TetrahedronMesh {
-    /// Added to every position to give file coordinates, see [`TriangleMesh::origin`](crate::TriangleMesh::origin).
+    /// Added to every position to give file coordinates, see
+    /// [`TriangleMesh::origin`](crate::TriangleMesh::origin).
     pub origin: [f64; 3],
     /// Vertex positions relative to `origin`, in mesh units.
     pub positions: Vec<[f32; 3]>,
-    /// Four vertex indices per tetrahedron: the first three counter-clockwise seen from the fourth's opposite side, so that
-    /// `dot(cross(b - a, c - a), d - a)` is positive.
+    /// Four vertex indices per tetrahedron: the first three counter-clockwise seen from the
+    /// fourth's opposite side, so that `dot(cross(b - a, c - a), d - a)` is positive.
     pub tetrahedra: Vec<[u32; 4]>,
     /// Per-vertex fields, each of length `positions.len()`.
     pub attributes: Vec<Attribute>,
-    /// Largest distance, in mesh units, between a vertex as the file gave it and as it is stored here.
+    /// Largest distance, in mesh units, between a vertex as the file gave it and as it is stored
+    /// here.
     pub rounding: f64,
 }
 
@@ -46,7 +49,7 @@ impl TetrahedronMesh {
     ///
     /// # Panics
     ///
-    /// Where there is no such vertex.
+    /// If there is no such vertex.
     pub fn six_volumes(&self, [a, b, c, d]: [u32; 4]) -> f64 {
         let point = |v: u32| self.positions[v as usize].map(f64::from);
         let apex = point(a);
@@ -67,10 +70,11 @@ impl TetrahedronMesh {
         self.tetrahedra.iter().map(|&tetrahedron| self.six_volumes(tetrahedron)).sum::<f64>() / 6.0
     }
 
-    /// Checks what the types leave open: indices in range, finite coordinates, a rounding that is a length, fields of the right
-    /// length.
+    /// Checks what the types leave open: indices in range, finite coordinates, a rounding that is a
+    /// length, fields of the right length.
     ///
-    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers and builds refuse those that do not.
+    /// Costs one pass over the mesh. Every reader returns meshes that pass; writers and builds
+    /// refuse those that do not.
     ///
     /// # Errors
     ///

@@ -1,5 +1,5 @@
-//! Promise: the conventions of each format are applied, and the dialects that other programs write are
-//! read. Every file here is literal, so that what it means can be seen.
+//! Promise: the conventions of each format are applied, and the dialects that other programs write
+//! are read. Every file here is literal, so that what it means can be seen.
 
 #![allow(clippy::unwrap_used, reason = "a failed step is a failed test")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
@@ -25,7 +25,8 @@ fn assert_near(found: &[f64], expected: &[f64]) {
     assert!(is_near, "{found:?} is not {expected:?}");
 }
 
-/// A glTF triangle whose accessors 1 and on are given; views are 36 bytes of positions, then the rest.
+/// A glTF triangle whose accessors 1 and on are given; views are 36 bytes of positions, then the
+/// rest.
 fn triangle(attributes: &str, primitive: &str, accessors: &str, rest: &str, data: &[u8]) -> Vec<u8> {
     let positions = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
     let buffer = [&positions, data].concat();

@@ -81,7 +81,7 @@ fn every_error_of_reading_has_a_file() {
     const OF_THE_SYSTEM: [&str; 2] = ["InFile", "Io"];
     // Volumes have readers and tests of their own.
     const OF_VOLUMES: [&str; 2] = ["UnknownVolumeExtension", "NoTetrahedra"];
-    let source = include_str!("../../formats/src/error.rs");
+    let source = include_str!("../../formats/src/files/error.rs");
     let variants = corpus::variants(source, "MeshError");
     let stated: BTreeSet<String> = corpus().outcomes().into_values().collect();
     let mut n_variants = 0;

@@ -116,7 +116,7 @@ fn every_error_of_reading_volumes_has_a_file() {
     // name around.
     const AROUND: [&str; 1] = ["InFile"];
     let others = [&OF_WRITING[..], &OF_SURFACES, &AROUND].concat();
-    let of_volumes: Vec<_> = variants(include_str!("../../formats/src/error.rs"), "MeshError")
+    let of_volumes: Vec<_> = variants(include_str!("../../formats/src/files/error.rs"), "MeshError")
         .into_iter()
         .filter(|name| !others.contains(name))
         .collect();

@@ -1,6 +1,6 @@
 //! Attributes as readers make them and writers take them.
 
-use crate::coordinates::nearest_f32;
+use crate::files::coordinates::nearest_f32;
 use crate::{Attribute, ScalarType};
 
 impl Attribute {

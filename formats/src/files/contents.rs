@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use crate::error::quoted_name;
+use crate::files::error::quoted_name;
 
 /// One thing that a file, or a mesh to be written, holds: an attribute, a material, an animation.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,8 +6,8 @@
 //! plain `f32` coordinates inexact for nothing. So both are tried and the displacement of the worst
 //! vertex decides.
 
-use crate::error::{MeshError, Place};
-use crate::unused::drop_bad_points;
+use crate::files::error::{MeshError, Place};
+use crate::files::unused::drop_bad_points;
 use crate::{Attribute, FileReport};
 
 /// Positions about an origin, and how far the worst of them is from where the file put it.

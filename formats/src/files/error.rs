@@ -1,4 +1,5 @@
-//! What can be wrong with a mesh file or with a mesh to be written, with the place, what was expected and what was found.
+//! What can be wrong with a mesh file or with a mesh to be written, with the place, what was
+//! expected and what was found.
 
 use std::fmt;
 use std::io;
@@ -12,7 +13,8 @@ const WHAT_IS_READ: &str = "meshes in PLY, OBJ, STL, OFF, glTF and GLB and volum
 
 /// Why a mesh could not be read or written.
 ///
-/// Messages are one clause and name the place inside the file; [`MeshError::InFile`] puts the file's name before it.
+/// Messages are one clause and name the place inside the file; [`MeshError::InFile`] puts the
+/// file's name before it.
 ///
 /// ```
 /// use nephrite_formats::{MeshError, MeshFormat, read_mesh_bytes};
@@ -47,7 +49,7 @@ pub enum MeshError {
     /// A mesh was to be written to a file whose extension names no format that is written.
     #[error("no mesh format is written under the extension {extension:?} (ply, obj, stl, off and glb are)")]
     UnknownExtension {
-        /// The extension found, empty where there is none.
+        /// The extension found; empty without one.
         extension: String,
     },
     /// The file holds no face with three corners or more; point clouds end here.
@@ -59,7 +61,7 @@ pub enum MeshError {
     /// A volume was to be written to a file whose extension names no format that is written.
     #[error("no volume format is written under the extension {extension:?} (vtu and vtk are)")]
     UnknownVolumeExtension {
-        /// The extension found, empty where there is none.
+        /// The extension found; empty without one.
         extension: String,
     },
     /// The file holds no cell with a volume.
@@ -122,7 +124,8 @@ pub enum MeshError {
         /// The largest that the bytes or the index type allow.
         limit: u64,
     },
-    /// An index that points at nothing, as the file writes it (OBJ counts from 1, backwards from -1).
+    /// An index that points at nothing, as the file writes it (OBJ counts from 1, backwards from
+    /// -1).
     #[error("{place}: {what} index {index} is out of range ({count} there)")]
     IndexOutOfRange {
         /// Where the index stands.
@@ -188,7 +191,7 @@ pub enum MeshError {
     },
 }
 
-/// Not a source of the error: whoever shows the chain of sources would show all that the parser quotes.
+/// Not a source of the error: a chain of sources would show all that the parser quotes.
 impl From<serde_json::Error> for MeshError {
     fn from(error: serde_json::Error) -> Self {
         Self::Json(error)
@@ -254,14 +257,16 @@ impl fmt::Display for Place {
     }
 }
 
-/// Bytes from a file as they can be shown in a one-line message: escaped, quoted and at most 40 bytes of them.
+/// Bytes from a file as they can be shown in a one-line message: escaped, quoted and at most 40
+/// bytes of them.
 pub(crate) fn excerpt(bytes: &[u8]) -> String {
     const SHOWN_BYTES: usize = 40;
     let shown = bytes.get(..SHOWN_BYTES).unwrap_or(bytes).escape_ascii();
     if bytes.len() > SHOWN_BYTES { format!("\"{shown}...\"") } else { format!("\"{shown}\"") }
 }
 
-/// What a parser says, which may quote as much of the file as it likes: printable, and its two ends where it is long.
+/// What a parser says, which may quote as much of the file as it likes: printable, and its two ends
+/// where it is long.
 pub(crate) fn shortened(error: &impl fmt::Display) -> String {
     const END_CHARS: usize = 80;
     let message: String = error.to_string().chars().flat_map(printable).collect();
@@ -273,8 +278,8 @@ pub(crate) fn shortened(error: &impl fmt::Display) -> String {
     ends.chain(message.chars().skip(n_chars - END_CHARS)).collect()
 }
 
-/// A name from a file as it can be shown in a message: quoted, escaped, at most 40 characters of it, and fewer where their escapes are
-/// more than 80.
+/// A name from a file as it can be shown in a message: quoted, escaped, at most 40 characters of
+/// it, and fewer where their escapes are more than 80.
 pub(crate) fn quoted_name(name: &str) -> String {
     const SHOWN_CHARS: usize = 40;
     const ESCAPED_CHARS: usize = 80;

@@ -1,7 +1,7 @@
 //! Faces as a file lists them, made into triangles once the positions are known.
 
 use crate::FileReport;
-use crate::polygon::Triangulator;
+use crate::files::polygon::Triangulator;
 
 /// Faces in file order. Triangles are stored as such; polygons beside them, with their place in the
 /// order.

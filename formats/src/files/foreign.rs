@@ -2,7 +2,7 @@
 //! them.
 
 use crate::MeshError;
-use crate::text::{Scanner, Style};
+use crate::files::text::{Scanner, Style};
 
 /// Files that begin with certain bytes, and what they are called.
 const MAGICS: [(&[u8], &str); 42] = [

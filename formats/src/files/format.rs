@@ -10,10 +10,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::input::read_input;
+use super::{foreign, gltf, obj, off, ply, stl};
+use crate::files::input::read_input;
+use crate::files::text::{BYTE_ORDER_MARK, Scanner, Style, as_utf8};
 use crate::publish::publish;
-use crate::text::{BYTE_ORDER_MARK, Scanner, Style, as_utf8};
-use crate::{FileReport, Kind, MeshError, TriangleMesh, foreign, gltf, obj, off, ply, stl};
+use crate::{FileReport, Kind, MeshError, TriangleMesh};
 
 /// A mesh file format.
 ///

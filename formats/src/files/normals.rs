@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use crate::coordinates::nearest_f32;
+use crate::files::coordinates::nearest_f32;
 
 /// What a report says of normals that were filled in.
 pub(crate) const COMPUTED: &str = "computed from the triangles";
 
 /// Unit normals of all vertices: the sum of the normals of the triangles at a vertex's position,
-/// each weighted by its area. `[0, 0, 1]` where there is no triangle with an area.
+/// each weighted by its area. `[0, 0, 1]` if no triangle has an area.
 ///
 /// Vertices at exactly one position get one normal, so that a seam of other attributes is not seen.
 /// Expected linear time.

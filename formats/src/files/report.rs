@@ -20,8 +20,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::contents::{Change, Fate, Item, Kind, figure};
-use crate::error::quoted_name;
+use crate::files::contents::{Change, Fate, Item, Kind, figure};
+use crate::files::error::quoted_name;
 use crate::{Attribute, MeshFormat, VolumeFormat};
 
 /// What happened while a mesh or a volume was read or written.

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::str::FromStr;
 
-use crate::error::{MeshError, Place, excerpt};
+use crate::files::error::{MeshError, Place, excerpt};
 
 /// What some programs write before UTF-8.
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
@@ -99,8 +99,8 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The words up to the end of the line with one blank between them: names may hold blanks. Of a name
-    /// longer than anybody writes, the beginning.
+    /// The words up to the end of the line with one blank between them: names may hold blanks. Of a
+    /// name unreasonably long, the beginning.
     pub(crate) fn rest_of_line(&mut self) -> String {
         const LONGEST_BYTES: usize = 1000;
         let mut text = String::new();
@@ -117,7 +117,7 @@ impl<'a> Scanner<'a> {
         text
     }
 
-    /// Goes to the start of the next line; false where there is none.
+    /// Goes to the start of the next line; false at the end of the text.
     pub(crate) fn next_line(&mut self) -> bool {
         loop {
             // A comment has been passed up to its line's end: a backslash before that end belongs
@@ -155,7 +155,7 @@ impl<'a> Scanner<'a> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Unexpected`] where the word is no number or the text ends.
+    /// [`MeshError::Unexpected`] if the word is not a number or the text ends.
     pub(crate) fn number(&mut self) -> Result<f64, MeshError> {
         let word = self.word();
         self.to_number(word)
@@ -165,7 +165,7 @@ impl<'a> Scanner<'a> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Unexpected`] where the word is no number or the line ends.
+    /// [`MeshError::Unexpected`] if the word is not a number or the line ends.
     pub(crate) fn number_in_line(&mut self) -> Result<f64, MeshError> {
         let word = self.word_in_line();
         self.to_number(word)
@@ -207,7 +207,7 @@ pub(crate) fn parse_number<T: FromStr>(word: &[u8]) -> Option<T> {
     text.parse().ok().or_else(|| respelled(text)?.parse().ok())
 }
 
-/// A float of another language as Rust spells it; `None` if it is none.
+/// A float of another language as Rust spells it; `None` for any other word.
 fn respelled(text: &str) -> Option<String> {
     let lower = text.to_ascii_lowercase();
     let (sign, digits) = match lower.strip_prefix('-') {

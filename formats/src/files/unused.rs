@@ -1,7 +1,7 @@
 //! Vertices without a place that no face uses: some programs mark what they deleted so.
 
-use crate::coordinates::check_coordinate;
-use crate::error::{MeshError, Place};
+use crate::files::coordinates::check_coordinate;
+use crate::files::error::{MeshError, Place};
 use crate::{Attribute, FileReport, Kind};
 
 /// Takes out vertices that no corner uses and whose coordinates are not finite or beyond `f32`,

@@ -1,11 +1,11 @@
 //! The vertices of a file, and the mesh that is made of them and its faces.
 
-use crate::coordinates::{Coordinates, Points};
-use crate::error::{MeshError, Place};
-use crate::faces::Faces;
+use crate::files::coordinates::{Coordinates, Points};
+use crate::files::error::{MeshError, Place};
+use crate::files::faces::Faces;
 use crate::{Attribute, FileReport, TriangleMesh};
 
-/// The vertices of a file, and where those stand whose coordinates are no numbers of `f32`.
+/// The vertices of a file, and the places of those whose coordinates `f32` cannot hold.
 pub(crate) struct Vertices {
     pub points: Points,
     pub attributes: Vec<Attribute>,

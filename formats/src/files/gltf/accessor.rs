@@ -7,7 +7,7 @@ use super::buffers::Buffers;
 use super::document::{BufferView, Compression, Document, Sparse};
 use super::meshopt;
 use crate::ScalarType;
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// A document with the bytes it refers to.
 pub(crate) struct Source<'a> {
@@ -70,7 +70,7 @@ impl<'a> Source<'a> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::IndexOutOfRange`] where there is no such accessor.
+    /// [`MeshError::IndexOutOfRange`] if there is no such accessor.
     pub(crate) fn count(&self, accessor: usize) -> Result<u64, MeshError> {
         Ok(get(&self.document.accessors, accessor, "accessor", Place::File)?.count)
     }

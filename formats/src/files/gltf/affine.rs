@@ -1,7 +1,7 @@
 //! Affine maps in `f64`: what a node does to its mesh.
 
 use super::document::Node;
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// `x -> linear x + translation`, the linear part by columns.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,8 +10,8 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::document::Buffer;
-use crate::error::{MeshError, Place, excerpt};
-use crate::input::{path_below, read_below};
+use crate::files::error::{MeshError, Place, excerpt};
+use crate::files::input::{path_below, read_below};
 
 /// The bytes of every buffer.
 pub(crate) struct Buffers<'a> {
@@ -73,7 +73,7 @@ impl<'a> Buffers<'a> {
         Ok(loaded)
     }
 
-    /// The bytes of a buffer; `None` where there is no such buffer or nothing in it.
+    /// The bytes of a buffer; `None` if there is no such buffer or it is empty.
     pub(crate) fn get(&self, buffer: usize) -> Option<&[u8]> {
         let contents = (*self.of_buffer.get(buffer)?)?;
         Some(&self.contents[contents])

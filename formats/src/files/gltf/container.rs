@@ -1,6 +1,6 @@
 //! GLB: a header and chunks, of which the first holds the JSON and the second the first buffer.
 
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// The chunks of a file; a file that is not GLB is all JSON.
 pub(crate) struct Container<'a> {

@@ -1,7 +1,7 @@
 //! What a document declares beside geometry, registered by name.
 
 use super::document::{Document, Keys};
-use crate::error::{MeshError, Place, shown_name};
+use crate::files::error::{MeshError, Place, shown_name};
 use crate::{FileReport, Kind};
 
 /// Extensions that the reader carries out.

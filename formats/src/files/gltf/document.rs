@@ -309,7 +309,7 @@ impl TryFrom<u32> for ComponentType {
             5123 => ScalarType::U16,
             5125 => ScalarType::U32,
             5126 => ScalarType::F32,
-            _ => return Err(format!("component type {code} is none of glTF's")),
+            _ => return Err(format!("component type {code} is not a type of glTF")),
         }))
     }
 }

@@ -3,7 +3,7 @@
 use super::accessor::Source;
 use super::affine::Affine;
 use super::document::{Instancing, Node};
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// The map of each copy within its node: scale, then rotation, then translation. One copy where it
 /// lies if none of them is given.

@@ -1,6 +1,6 @@
 //! Attributes of several primitives joined into attributes of one mesh.
 
-use crate::coordinates::nearest_f32;
+use crate::files::coordinates::nearest_f32;
 use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// The attributes of some vertices that follow one another.

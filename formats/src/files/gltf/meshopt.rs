@@ -4,7 +4,7 @@
 //! A (bitstream) and B (filters). The words of the code are those of the appendices.
 
 use super::document::{Compression, Filter, Mode};
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// The most bytes that one compressed byte can stand for: a byte of headers holds 4 groups of 16.
 pub(crate) const MOST_PER_BYTE: u64 = 64;

@@ -5,8 +5,8 @@ use super::affine::{Affine, unit};
 use super::document::{POINTS, Primitive, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES, TextureTransform};
 use super::names::attribute_name;
 use super::texcoords::{SetTransforms, set_number};
-use crate::coordinates::nearest_f32;
-use crate::error::{MeshError, Place};
+use crate::files::coordinates::nearest_f32;
+use crate::files::error::{MeshError, Place};
 use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// The positions of a primitive before its map is applied.

@@ -14,10 +14,10 @@ use super::join::{Block, join};
 use super::primitive::{attributes, positions, triangles};
 use super::scene::{Instance, instances};
 use super::texcoords::SetTransforms;
-use crate::coordinates::{Coordinates, from_f64, from_translated, nearest_f32};
-use crate::error::{MeshError, Place, shown_name};
-use crate::normals::{COMPUTED, smooth};
-use crate::unused::drop_bad_points;
+use crate::files::coordinates::{Coordinates, from_f64, from_translated, nearest_f32};
+use crate::files::error::{MeshError, Place, shown_name};
+use crate::files::normals::{COMPUTED, smooth};
+use crate::files::unused::drop_bad_points;
 use crate::{Attribute, Change, FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads a glTF or GLB file; buffers in other files are looked for below `folder`.

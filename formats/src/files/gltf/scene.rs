@@ -3,7 +3,7 @@
 use super::accessor::get;
 use super::affine::Affine;
 use super::document::Document;
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// A mesh where a node puts it.
 #[derive(Debug, PartialEq)]

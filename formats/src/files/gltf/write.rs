@@ -5,8 +5,8 @@ use std::io::Write;
 use serde_json::{Map, Value, json};
 
 use super::names::semantic;
-use crate::coordinates::nearest_f32;
-use crate::distinct::DistinctNames;
+use crate::files::coordinates::nearest_f32;
+use crate::files::distinct::DistinctNames;
 use crate::{Attribute, Change, FileReport, Kind, MeshError, MeshFormat, ScalarType, TriangleMesh};
 
 /// Writes a mesh with all its attributes.

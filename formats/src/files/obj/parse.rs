@@ -2,9 +2,9 @@
 
 use super::regions::Regions;
 use crate::FileReport;
-use crate::coordinates::{check_coordinate, nearest_f32};
-use crate::error::{MeshError, Place};
-use crate::text::{Scanner, Style, parse_integer};
+use crate::files::coordinates::{check_coordinate, nearest_f32};
+use crate::files::error::{MeshError, Place};
+use crate::files::text::{Scanner, Style, parse_integer};
 
 /// A corner's index of a list it does not use.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -14,7 +14,7 @@ pub(crate) const NONE: u32 = u32::MAX;
 #[derive(Default)]
 pub(crate) struct Statements {
     pub positions: Vec<[f64; 3]>,
-    /// Positions that are no numbers of `f32`, with their lines.
+    /// Positions that `f32` cannot hold, with their lines.
     pub bad_places: Vec<(usize, Place)>,
     /// Positions with a weight other than 1, which rational curves would use.
     pub n_weights: u64,
@@ -39,7 +39,7 @@ const LISTS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 /// The largest index into a list, and where it stands: the list may grow after it.
 #[derive(Clone, Copy, Default)]
 struct Largest {
-    /// Index from 1; 0 where there is none.
+    /// Index from 1; 0 if the corner has none.
     number: u64,
     line: Option<Place>,
 }
@@ -100,7 +100,7 @@ impl Statements {
         let mut n_numbers = 0;
         while n_numbers < numbers.len() {
             let Some(word) = scanner.word_in_line() else { break };
-            let value = crate::text::parse_number(word);
+            let value = crate::files::text::parse_number(word);
             numbers[n_numbers] = value.ok_or_else(|| scanner.unexpected("a number", Some(word)))?;
             n_numbers += 1;
         }
@@ -129,14 +129,13 @@ impl Statements {
     fn texcoord(&mut self, scanner: &mut Scanner<'_>) -> Result<(), MeshError> {
         let u = scanner.number_in_line()?;
         let v = match scanner.word_in_line() {
-            Some(word) => {
-                crate::text::parse_number(word).ok_or_else(|| scanner.unexpected("a number", Some(word)))?
-            }
+            Some(word) => crate::files::text::parse_number(word)
+                .ok_or_else(|| scanner.unexpected("a number", Some(word)))?,
             None => 0.0,
         };
         // OBJ counts V from the bottom.
         self.texcoords.push([nearest_f32(u), nearest_f32(1.0 - v)]);
-        let third: Option<f64> = scanner.word_in_line().and_then(crate::text::parse_number);
+        let third: Option<f64> = scanner.word_in_line().and_then(crate::files::text::parse_number);
         self.n_third_texcoords += u64::from(third.is_some_and(|third| third != 0.0));
         Ok(())
     }

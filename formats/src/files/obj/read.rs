@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 
 use super::parse::{NONE, Statements};
-use crate::coordinates::Points;
-use crate::error::{MeshError, Place};
-use crate::faces::Faces;
-use crate::normals::{COMPUTED, smooth};
-use crate::vertices::{assemble, place_of};
+use crate::files::coordinates::Points;
+use crate::files::error::{MeshError, Place};
+use crate::files::faces::Faces;
+use crate::files::normals::{COMPUTED, smooth};
+use crate::files::vertices::{assemble, place_of};
 use crate::{Attribute, Change, FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads an OBJ file.

@@ -1,8 +1,8 @@
 //! What an OBJ file says beside vertices and faces: the sets that its faces belong to, and
 //! statements that are not read.
 
-use crate::report::ItemId;
-use crate::text::Scanner;
+use crate::files::report::ItemId;
+use crate::files::text::Scanner;
 use crate::{FileReport, Kind};
 
 /// The sets that the next face belongs to.

@@ -68,7 +68,7 @@ fn write_positions(
             }
         }
         for component in colors.by_ref().take(n_components) {
-            write!(out, " {:?}", crate::coordinates::nearest_f32(component))?;
+            write!(out, " {:?}", crate::files::coordinates::nearest_f32(component))?;
         }
         out.write_all(b"\n")?;
     }
@@ -82,7 +82,7 @@ fn write_list(keyword: &str, attribute: Option<&Attribute>, out: &mut dyn Write)
         if i % n_components == 0 {
             out.write_all(keyword.as_bytes())?;
         }
-        write!(out, " {:?}", crate::coordinates::nearest_f32(value))?;
+        write!(out, " {:?}", crate::files::coordinates::nearest_f32(value))?;
         if i % n_components == n_components - 1 {
             out.write_all(b"\n")?;
         }

@@ -3,12 +3,12 @@
 
 use super::columns::Columns;
 use super::keyword::Keyword;
-use crate::coordinates::Points;
-use crate::error::{MeshError, Place};
-use crate::face_colors::{FaceColors, from_unit};
-use crate::faces::Faces;
-use crate::text::Scanner;
-use crate::vertices::Vertices;
+use crate::files::coordinates::Points;
+use crate::files::error::{MeshError, Place};
+use crate::files::face_colors::{FaceColors, from_unit};
+use crate::files::faces::Faces;
+use crate::files::text::Scanner;
+use crate::files::vertices::Vertices;
 use crate::{FileReport, Kind};
 
 /// How a program writes its numbers. Geomview's own files are the first.
@@ -35,8 +35,8 @@ struct Parsed {
     n_bytes_left: usize,
 }
 
-/// Reads what stands behind the line of the keyword: as Geomview writes it, or in the other layout that
-/// takes the whole file to its last byte.
+/// Reads what stands behind the line of the keyword: as Geomview writes it, or in the other layout
+/// that takes the whole file to its last byte.
 ///
 /// # Errors
 ///

@@ -1,7 +1,7 @@
 //! The numbers behind the coordinates of vertices, made into attributes.
 
 use super::keyword::Keyword;
-use crate::coordinates::nearest_f32;
+use crate::files::coordinates::nearest_f32;
 use crate::{Attribute, FileReport, Kind, ScalarType};
 
 /// Numbers of all vertices, as many for each.

@@ -3,12 +3,12 @@
 use super::binary;
 use super::columns::Columns;
 use super::keyword::Keyword;
-use crate::coordinates::{Points, check_coordinate};
-use crate::error::{MeshError, Place};
-use crate::face_colors::{FaceColors, from_unit};
-use crate::faces::Faces;
-use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::vertices::Vertices;
+use crate::files::coordinates::{Points, check_coordinate};
+use crate::files::error::{MeshError, Place};
+use crate::files::face_colors::{FaceColors, from_unit};
+use crate::files::faces::Faces;
+use crate::files::text::{Scanner, Style, parse_integer, parse_number};
+use crate::files::vertices::Vertices;
 use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads an OFF file; the keyword `OFF` may be missing, as its definition allows.
@@ -37,7 +37,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(TriangleMesh, FileReport), MeshError
     let n_vertices = count(&scanner, word, "vertices")?;
     let word = scanner.word();
     let n_faces = count(&scanner, word, "faces")?;
-    // The number of edges means nothing to anybody and is sometimes missing.
+    // The number of edges is not used, and some files lack it.
     scanner.next_line();
     let vertices = vertices(&mut scanner, keyword, n_vertices, &mut report)?;
     let faces = faces(&mut scanner, n_faces, n_vertices, &mut report)?;

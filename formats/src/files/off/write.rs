@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::coordinates::nearest_f32;
+use crate::files::coordinates::nearest_f32;
 use crate::{Attribute, FileReport, Kind, MeshError, ScalarType, TriangleMesh};
 
 /// Writes a mesh in file coordinates, with as many digits as tell every number apart.

@@ -6,9 +6,9 @@ use super::read::{Values, Visit, check_index};
 use super::vertices::{
     Field, Records, coordinate_properties, packed_fields, scalar_value, take_apart, value_bytes,
 };
-use crate::error::{MeshError, Place};
-use crate::faces::Faces;
-use crate::vertices::Vertices;
+use crate::files::error::{MeshError, Place};
+use crate::files::faces::Faces;
+use crate::files::vertices::Vertices;
 use crate::{FileReport, ScalarType};
 
 /// The bytes after the header.
@@ -219,7 +219,7 @@ fn integer(bytes: &[u8], scalar: ScalarType, is_big_endian: bool) -> Option<i64>
 
 #[cfg(test)]
 mod tests {
-    use crate::ply::read;
+    use crate::files::ply::read;
     use crate::{MeshError, ScalarType};
 
     const HEADER: &str = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty ushort label\n\

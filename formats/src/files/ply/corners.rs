@@ -3,8 +3,8 @@
 
 use std::collections::HashMap;
 
-use crate::coordinates::{Points, nearest_f32};
-use crate::error::{MeshError, Place};
+use crate::files::coordinates::{Points, nearest_f32};
+use crate::files::error::{MeshError, Place};
 use crate::{Attribute, Change, FileReport, Kind};
 
 /// Vertices with the texture coordinates of the corners at them.

@@ -2,8 +2,8 @@
 
 use super::header::{Element, PropertyKind};
 use crate::ScalarType;
-use crate::error::{MeshError, Place};
-use crate::face_colors::from_unit;
+use crate::files::error::{MeshError, Place};
+use crate::files::face_colors::from_unit;
 
 /// Places of the wanted properties among those of an element.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl Wanted {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Missing`] where there is no such list.
+    /// [`MeshError::Missing`] if there is no such list.
     pub(crate) fn indices_of(element: &Element, part: &'static str) -> Result<Self, MeshError> {
         let indices = element.properties.iter().position(|property| {
             matches!(property.kind, PropertyKind::List { .. })

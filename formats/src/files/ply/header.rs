@@ -1,8 +1,8 @@
 //! The header of a PLY file: what its elements are and where their values begin.
 
 use crate::ScalarType;
-use crate::error::{MeshError, Place, excerpt};
-use crate::text::BYTE_ORDER_MARK;
+use crate::files::error::{MeshError, Place, excerpt};
+use crate::files::text::BYTE_ORDER_MARK;
 
 /// What the header declares.
 #[derive(Debug)]
@@ -76,7 +76,7 @@ impl Header {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Unexpected`] for a line that is none of the format's.
+    /// [`MeshError::Unexpected`] for a line that the format does not have.
     pub(crate) fn parse(bytes: &[u8]) -> Result<Self, MeshError> {
         let start = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
         let mut lines = Lines { bytes, at: start, n_lines: 0, lone_cr: false };

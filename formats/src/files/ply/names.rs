@@ -2,7 +2,7 @@
 //! written.
 
 use super::header::{Element, PropertyKind};
-use crate::distinct::DistinctNames;
+use crate::files::distinct::DistinctNames;
 use crate::{Attribute, ScalarType};
 
 /// Property names that make up an attribute; the first row is the one that is written.
@@ -101,7 +101,7 @@ pub(crate) fn property_names(attributes: &[Attribute]) -> Vec<Vec<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ply::header::Property;
+    use crate::files::ply::header::Property;
 
     fn element(properties: &[(&str, ScalarType)]) -> Element {
         let properties = properties

@@ -5,10 +5,10 @@ use super::corners::CornerTexcoords;
 use super::face::{Record, Wanted};
 use super::header::{Element, Encoding, Header};
 use super::text::{Layout, Text};
-use crate::error::{MeshError, Place};
-use crate::face_colors::FaceColors;
-use crate::faces::Faces;
-use crate::vertices::Vertices;
+use crate::files::error::{MeshError, Place};
+use crate::files::face_colors::FaceColors;
+use crate::files::faces::Faces;
+use crate::files::vertices::Vertices;
 use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 /// Reads a PLY file.

@@ -8,10 +8,10 @@ use super::face::{Record, Wanted};
 use super::header::{Element, Header, PropertyKind};
 use super::read::{Values, Visit};
 use super::vertices::{Field, Records, coordinate_properties, packed_fields, take_apart};
-use crate::coordinates::{check_coordinate, nearest_f32};
-use crate::error::{MeshError, Place};
-use crate::text::{Scanner, Style, parse_integer, parse_number};
-use crate::vertices::Vertices;
+use crate::files::coordinates::{check_coordinate, nearest_f32};
+use crate::files::error::{MeshError, Place};
+use crate::files::text::{Scanner, Style, parse_integer, parse_number};
+use crate::files::vertices::Vertices;
 use crate::{FileReport, ScalarType};
 
 /// The words after the header.

@@ -5,10 +5,10 @@
 
 use super::header::{Element, PropertyKind};
 use super::names::plan_attributes;
-use crate::coordinates::Points;
-use crate::error::{MeshError, Place};
-use crate::report::ItemId;
-use crate::vertices::Vertices;
+use crate::files::coordinates::Points;
+use crate::files::error::{MeshError, Place};
+use crate::files::report::ItemId;
+use crate::files::vertices::Vertices;
 use crate::{Attribute, Change, FileReport, Kind, ScalarType};
 
 /// Vertex records, one after another, all of the same layout.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::io::Write;
 
 use super::names::property_names;
-use crate::face_colors::unit_to_byte;
+use crate::files::face_colors::unit_to_byte;
 use crate::{Attribute, Change, FileReport, Kind, MeshError, ScalarType, TriangleMesh};
 
 /// Writes a mesh; coordinates are `float` where the origin is zero and `double`, in file

@@ -4,7 +4,7 @@
 //! header holds `COLOR=` and the colour of the whole in 4 bytes: bit 15 clear for a facet's own
 //! colour, red in the lowest bits.
 
-use crate::face_colors::FaceColors;
+use crate::files::face_colors::FaceColors;
 use crate::{FileReport, Kind};
 
 const VALID: u16 = 1 << 15;

@@ -2,12 +2,12 @@
 
 use super::colors;
 use super::weld::weld;
-use crate::contents::figure;
-use crate::coordinates::{Coordinates, check_coordinate, from_f32, from_text};
-use crate::error::{MeshError, Place};
-use crate::faces::Faces;
-use crate::report::ItemId;
-use crate::text::{Scanner, Style};
+use crate::files::contents::figure;
+use crate::files::coordinates::{Coordinates, check_coordinate, from_f32, from_text};
+use crate::files::error::{MeshError, Place};
+use crate::files::faces::Faces;
+use crate::files::report::ItemId;
+use crate::files::text::{Scanner, Style};
 use crate::{FileReport, Kind, MeshFormat, TriangleMesh};
 
 const HEADER_BYTES: usize = 80;

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::coordinates::nearest_f32;
+use crate::files::coordinates::nearest_f32;
 use crate::{FileReport, Kind, MeshError, MeshFormat, TriangleMesh};
 
 /// Writes a mesh. Attributes have no place in STL and are left out.
@@ -71,7 +71,7 @@ fn unit_normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stl::read;
+    use crate::files::stl::read;
 
     #[test]
     fn far_from_the_origin_text_keeps_the_digits() {

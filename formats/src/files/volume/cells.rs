@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::coning::{HEXAHEDRON, PRISM, PYRAMID, UPRIGHT_PRISM, VOXEL, cone};
 use crate::FileReport;
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 
 /// What a cell is, whatever the format calls it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,7 +150,7 @@ pub(super) mod tests {
     use std::collections::BTreeMap;
 
     /// Counts the faces of one tetrahedron; all others are of two. Faces are told by their places.
-    pub(in crate::volume) fn n_outer_faces(positions: &[[f32; 3]], tetrahedra: &[[u32; 4]]) -> usize {
+    pub(in crate::files::volume) fn n_outer_faces(positions: &[[f32; 3]], tetrahedra: &[[u32; 4]]) -> usize {
         let mut faces: BTreeMap<Vec<[u32; 3]>, usize> = BTreeMap::new();
         for tetrahedron in tetrahedra {
             for left_out in 0..4 {

@@ -8,10 +8,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{gmsh, medit, meshb, mfem, plot3d, tetgen, vtk, vtu};
-use crate::error::Place;
-use crate::input::read_input;
+use crate::files::error::Place;
+use crate::files::foreign;
+use crate::files::input::read_input;
 use crate::publish::publish;
-use crate::{FileReport, Kind, MeshError, TetrahedronMesh, foreign};
+use crate::{FileReport, Kind, MeshError, TetrahedronMesh};
 
 /// A volume file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

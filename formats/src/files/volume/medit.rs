@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::words::{count, integer, point};
-use crate::error::{MeshError, Place};
-use crate::text::{Scanner, Style, parse_number};
+use crate::files::error::{MeshError, Place};
+use crate::files::text::{Scanner, Style, parse_number};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
 /// Reads a MEDIT file. References of vertices and elements are left out and reported; surface
@@ -141,7 +141,8 @@ impl<'a> Reader<'a> {
         }
         let name = String::from_utf8_lossy(keyword).into_owned();
         if lower.strip_suffix(b"ordering").is_some_and(|of| solid(of).is_some()) {
-            let feature = format!("an order of nodes of its own ({})", crate::error::shown_name(&name));
+            let feature =
+                format!("an order of nodes of its own ({})", crate::files::error::shown_name(&name));
             return Err(MeshError::Unsupported { place: self.scanner.place(), feature });
         }
         self.report.found(Kind::Section, &name);
@@ -174,7 +175,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether a word begins a section: it begins with a letter and is no number such as `nan`.
+/// Whether a word begins a section: it begins with a letter and is not a number such as `nan`.
 fn is_keyword(word: &[u8]) -> bool {
     word.first().is_some_and(u8::is_ascii_alphabetic) && parse_number::<f64>(word).is_none()
 }

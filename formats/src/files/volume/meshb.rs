@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::scalars::{NumberType, Numbers};
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 
 /// The first number of a file in the byte order of the machine that wrote it.

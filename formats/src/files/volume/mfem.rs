@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::words::{count, integer, point};
-use crate::error::{MeshError, Place, shown_name};
-use crate::text::{Scanner, Style};
+use crate::files::error::{MeshError, Place, shown_name};
+use crate::files::text::{Scanner, Style};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
 /// How a file begins.
@@ -34,7 +34,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshEr
         is_curved: false,
     };
     if !bytes.trim_ascii_start().starts_with(MAGIC) {
-        let found = crate::error::excerpt(bytes.trim_ascii_start());
+        let found = crate::files::error::excerpt(bytes.trim_ascii_start());
         return Err(MeshError::Unexpected {
             place: Place::Line(1),
             expected: "MFEM mesh v1.0 to v1.3",
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         self.is_curved = !matches!(collection.as_str(), "Linear" | "H1_3D_P1");
         let mut numbers = Vec::new();
         let mut next = self.scanner.word();
-        while let Some(number) = next.and_then(crate::text::parse_number::<f64>) {
+        while let Some(number) = next.and_then(crate::files::text::parse_number::<f64>) {
             numbers.push(number);
             next = self.scanner.word();
         }

@@ -2,10 +2,10 @@
 
 use super::cells::Cells;
 use super::scalars::{Numbers, points_f32};
-use crate::coordinates::Coordinates;
-pub(super) use crate::coordinates::Points;
-use crate::distinct::DistinctNames;
-use crate::report::ItemId;
+use crate::files::coordinates::Coordinates;
+pub(super) use crate::files::coordinates::Points;
+use crate::files::distinct::DistinctNames;
+use crate::files::report::ItemId;
 use crate::{Attribute, Change, FileReport, Kind, MeshError, TetrahedronMesh};
 
 impl Points {

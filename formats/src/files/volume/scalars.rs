@@ -1,8 +1,8 @@
 //! Arrays of numbers in any type and byte order, made into little-endian attribute values.
 
 use crate::ScalarType;
-use crate::coordinates::nearest_f32;
-use crate::text::parse_number;
+use crate::files::coordinates::nearest_f32;
+use crate::files::text::parse_number;
 
 /// Type of the numbers in a file. Fields have no 64-bit integers; coordinates and indices may.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,8 +9,8 @@ use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::scalars::{NumberType, Numbers};
 use super::words::{Names, checked_count};
-use crate::error::MeshError;
-use crate::text::{Scanner, Style, parse_integer, parse_number};
+use crate::files::error::MeshError;
+use crate::files::text::{Scanner, Style, parse_integer, parse_number};
 use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 
 /// Reads the contents of the two files. Attributes of vertices are the fields `attribute_1` and on.

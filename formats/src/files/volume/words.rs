@@ -3,8 +3,8 @@
 
 use std::collections::HashMap;
 
-use crate::error::{MeshError, Place};
-use crate::text::{Scanner, parse_integer};
+use crate::files::error::{MeshError, Place};
+use crate::files::text::{Scanner, parse_integer};
 
 /// Reads a count of items that take at least 2 bytes each.
 pub(super) fn count(scanner: &mut Scanner<'_>, what: &'static str) -> Result<usize, MeshError> {

@@ -2,8 +2,8 @@
 //!
 //! Reference: Gmsh reference manual, "MSH file format", and the list of types in its source.
 
-use crate::error::{MeshError, Place};
-use crate::volume::cells::CellKind;
+use crate::files::error::{MeshError, Place};
+use crate::files::volume::cells::CellKind;
 
 /// What a number of Gmsh means for a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

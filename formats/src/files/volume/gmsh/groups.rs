@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::source::Source;
-use crate::error::MeshError;
+use crate::files::error::MeshError;
 use crate::{FileReport, Kind};
 
 /// A dimension and the number of a group or entity in it.

@@ -14,7 +14,7 @@ mod values;
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::words::Names;
-use crate::error::MeshError;
+use crate::files::error::MeshError;
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 use element::ElementType;
 use groups::Groups;

@@ -1,9 +1,9 @@
 //! Words and numbers of a Gmsh file. In a binary file sections, counts of version 2 and names are
 //! text, and numbers begin behind the end of a line.
 
-use crate::error::{MeshError, Place};
-use crate::text::{Scanner, Style, parse_integer};
-use crate::volume::words::{count, integer};
+use crate::files::error::{MeshError, Place};
+use crate::files::text::{Scanner, Style, parse_integer};
+use crate::files::volume::words::{count, integer};
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

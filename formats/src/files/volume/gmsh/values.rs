@@ -2,9 +2,9 @@
 
 use super::Reader;
 use super::source::Source;
-use crate::error::MeshError;
-use crate::volume::pending::wrong_length;
-use crate::volume::scalars::{NumberType, Numbers};
+use crate::files::error::MeshError;
+use crate::files::volume::pending::wrong_length;
+use crate::files::volume::scalars::{NumberType, Numbers};
 use crate::{Kind, ScalarType};
 
 /// What stands before the values of a section.

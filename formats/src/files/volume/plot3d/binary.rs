@@ -3,8 +3,8 @@
 
 use super::{Block, Contents, are_blocks};
 use crate::ScalarType;
-use crate::error::{MeshError, Place};
-use crate::volume::scalars::{NumberType, Numbers};
+use crate::files::error::{MeshError, Place};
+use crate::files::volume::scalars::{NumberType, Numbers};
 
 /// Reads the blocks.
 ///

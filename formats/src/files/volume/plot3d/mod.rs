@@ -14,7 +14,7 @@ mod text;
 use super::cells::{CellKind, Cells};
 use super::pending::{Fields, Points, finish};
 use super::scalars::Numbers;
-use crate::error::{MeshError, Place};
+use crate::files::error::{MeshError, Place};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
 /// Five tetrahedra of a hexahedron with VTK's order of vertices, for cells whose indices have an
@@ -93,7 +93,7 @@ pub(super) fn read(grid: &[u8], solutions: &[&[u8]]) -> Result<(TetrahedronMesh,
             return Err(MeshError::Unexpected {
                 place: Place::Part("solution"),
                 expected: "the dimensions of the grid",
-                found: crate::error::shortened(&format!("{:?}", dimensions(&solution))),
+                found: crate::files::error::shortened(&format!("{:?}", dimensions(&solution))),
             });
         }
         for (name, first, n) in [("density", 0, 1), ("momentum", 1, 3), ("energy", 4, 1)] {
@@ -175,7 +175,7 @@ fn are_blocks(dimensions: &[[usize; 3]], limit: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::volume::cells::tests::n_outer_faces;
+    use crate::files::volume::cells::tests::n_outer_faces;
 
     /// Two blocks of unit cubes, of so many points along x, that share a side.
     fn two_blocks(first: usize, second: usize) -> String {

@@ -2,9 +2,9 @@
 
 use super::{Block, Contents, are_blocks};
 use crate::ScalarType;
-use crate::error::{MeshError, Place, excerpt};
-use crate::text::parse_number;
-use crate::volume::scalars::{NumberType, Numbers};
+use crate::files::error::{MeshError, Place, excerpt};
+use crate::files::text::parse_number;
+use crate::files::volume::scalars::{NumberType, Numbers};
 
 /// Whether a file begins as text does.
 pub(super) fn is_text(bytes: &[u8]) -> bool {

@@ -1,10 +1,10 @@
 //! Numbers of VTK's cell types.
 
-use crate::error::{MeshError, Place};
-use crate::volume::cells::CellKind;
+use crate::files::error::{MeshError, Place};
+use crate::files::volume::cells::CellKind;
 
 /// Number of a tetrahedron.
-pub(in crate::volume) const TETRAHEDRON: u8 = 10;
+pub(in crate::files::volume) const TETRAHEDRON: u8 = 10;
 
 /// What a cell type means for a volume. Of Lagrange cells (68 to 74) and Bézier cells (75 to 81)
 /// the corners stand before all other nodes, as in the cells of the second order.
@@ -12,7 +12,7 @@ pub(in crate::volume) const TETRAHEDRON: u8 = 10;
 /// # Errors
 ///
 /// [`MeshError::Unsupported`] for solids whose faces no number tells, such as polyhedra.
-pub(in crate::volume) fn kind_of(cell_type: i64, place: Place) -> Result<CellKind, MeshError> {
+pub(in crate::files::volume) fn kind_of(cell_type: i64, place: Place) -> Result<CellKind, MeshError> {
     Ok(match cell_type {
         10 | 24 | 71 | 78 => CellKind::Tetrahedron,
         11 => CellKind::Voxel,

@@ -2,11 +2,11 @@
 
 use super::cell_type::kind_of;
 use super::source::{ArrayType, Source, small_count};
-use crate::error::{MeshError, Place};
-use crate::volume::cells::Cells;
-use crate::volume::ghosts::{Ghosts, tells_ghosts};
-use crate::volume::pending::{Fields, Points, finish};
-use crate::volume::scalars::{NumberType, Numbers};
+use crate::files::error::{MeshError, Place};
+use crate::files::volume::cells::Cells;
+use crate::files::volume::ghosts::{Ghosts, tells_ghosts};
+use crate::files::volume::pending::{Fields, Points, finish};
+use crate::files::volume::scalars::{NumberType, Numbers};
 use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 
 /// Reads a legacy VTK file.
@@ -14,7 +14,7 @@ use crate::{FileReport, Kind, ScalarType, TetrahedronMesh, VolumeFormat};
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(in crate::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
+pub(in crate::files::volume) fn read(bytes: &[u8]) -> Result<(TetrahedronMesh, FileReport), MeshError> {
     let mut source = Source::new(bytes)?;
     let word = source.word();
     if !word.is_some_and(|word| word.eq_ignore_ascii_case(b"dataset")) {

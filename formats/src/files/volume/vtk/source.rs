@@ -1,9 +1,10 @@
 //! Words and arrays of a legacy file, text or binary.
 
-use crate::error::{MeshError, Place};
-use crate::text::{Scanner, Style, parse_integer};
-use crate::volume::scalars::{NumberType, Numbers, push_text};
-use crate::{ScalarType, text};
+use crate::ScalarType;
+use crate::files::error::{MeshError, Place};
+use crate::files::text;
+use crate::files::text::{Scanner, Style, parse_integer};
+use crate::files::volume::scalars::{NumberType, Numbers, push_text};
 
 /// What an array holds, by the name of its type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -211,7 +212,7 @@ impl<'a> Source<'a> {
     }
 
     pub(super) fn unexpected(&self, expected: &'static str, found: Option<&[u8]>) -> MeshError {
-        let found = found.map_or_else(|| "the end of the file".to_owned(), crate::error::excerpt);
+        let found = found.map_or_else(|| "the end of the file".to_owned(), crate::files::error::excerpt);
         MeshError::Unexpected { place: self.place(), expected, found }
     }
 }

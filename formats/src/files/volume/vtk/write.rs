@@ -10,7 +10,7 @@ use crate::{Attribute, FileReport, Kind, MeshError, ScalarType, TetrahedronMesh}
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(in crate::volume) fn write(
+pub(in crate::files::volume) fn write(
     mesh: &TetrahedronMesh,
     out: &mut dyn Write,
     report: &mut FileReport,

@@ -8,8 +8,8 @@ use roxmltree::Node;
 
 use super::compression::Compressor;
 use crate::ScalarType;
-use crate::error::{MeshError, Place, quoted_name};
-use crate::volume::scalars::{NumberType, Numbers, push_text};
+use crate::files::error::{MeshError, Place, quoted_name};
+use crate::files::volume::scalars::{NumberType, Numbers, push_text};
 
 /// How the file as a whole encodes its arrays.
 pub(super) struct Encoding<'a> {
@@ -228,7 +228,7 @@ fn from_text(element: Element, text: &str) -> Result<Numbers, MeshError> {
         push_text(&mut bytes, number, word.as_bytes()).ok_or_else(|| MeshError::Unexpected {
             place: Place::Part("data array"),
             expected: "a number of the array's type",
-            found: crate::error::excerpt(word.as_bytes()),
+            found: crate::files::error::excerpt(word.as_bytes()),
         })?;
     }
     Ok(Numbers { number, bytes })

@@ -139,7 +139,7 @@ mod tests {
     use super::*;
 
     /// The bytes 0 to 99, ten times, as `xz` writes them with a CRC32.
-    const XZ: &[u8] = include_bytes!("../../../tests/samples/counted.xz");
+    const XZ: &[u8] = include_bytes!("../../../../tests/samples/counted.xz");
     /// The same as an LZ4 block.
     fn lz4() -> Vec<u8> {
         [&[0xFF, 85], &counted()[..100], &[100, 0, 255, 255, 255, 111, 0x50, 95, 96, 97, 98, 99]].concat()

@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 
 use super::arrays::{Encoding, is_base64, unsupported};
 use super::compression::Compressor;
-use crate::error::{MeshError, Place, quoted_name, shortened};
+use crate::files::error::{MeshError, Place, quoted_name, shortened};
 
 /// The text of a file apart from its appended data.
 pub(super) struct Parts<'a> {

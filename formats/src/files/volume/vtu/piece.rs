@@ -4,11 +4,11 @@ use roxmltree::Node;
 
 use super::arrays::{Encoding, unsupported};
 use super::document::{arrays, child, name_of};
-use crate::error::{MeshError, Place};
-use crate::volume::cells::Cells;
-use crate::volume::ghosts::{Ghosts, tells_ghosts};
-use crate::volume::scalars::Numbers;
-use crate::volume::vtk::kind_of;
+use crate::files::error::{MeshError, Place};
+use crate::files::volume::cells::Cells;
+use crate::files::volume::ghosts::{Ghosts, tells_ghosts};
+use crate::files::volume::scalars::Numbers;
+use crate::files::volume::vtk::kind_of;
 use crate::{FileReport, Kind};
 
 /// A piece of a grid, or all up to one.

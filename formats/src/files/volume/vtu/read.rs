@@ -9,9 +9,9 @@ use roxmltree::Node;
 use super::arrays::unsupported;
 use super::document::{Parts, child};
 use super::piece::{Field, Piece, is_bare, name_field_data, read_piece};
-use crate::error::{MeshError, Place, excerpt, quoted_name};
-use crate::input::{path_below, read_below};
-use crate::volume::pending::{Fields, Points, finish};
+use crate::files::error::{MeshError, Place, excerpt, quoted_name};
+use crate::files::input::{path_below, read_below};
+use crate::files::volume::pending::{Fields, Points, finish};
 use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 
 /// Reads a VTU, PVTU or PVD file; the files that it refers to are looked for in its folder and
@@ -23,7 +23,7 @@ use crate::{FileReport, Kind, TetrahedronMesh, VolumeFormat};
 /// # Errors
 ///
 /// Any [`MeshError`] about contents.
-pub(in crate::volume) fn read(
+pub(in crate::files::volume) fn read(
     bytes: &[u8],
     folder: Option<&Path>,
 ) -> Result<(TetrahedronMesh, FileReport), MeshError> {
@@ -127,7 +127,8 @@ fn read_file(
     }
 }
 
-/// Reads the grids of a collection. Parts of one time are pieces of one grid, in any order of times.
+/// Reads the grids of a collection. Parts of one time are pieces of one grid, in any order of
+/// times.
 fn read_times(
     collection: Node<'_, '_>,
     files: &mut Files,

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::volume::vtk::TETRAHEDRON;
+use crate::files::volume::vtk::TETRAHEDRON;
 use crate::{FileReport, Kind, MeshError, ScalarType, TetrahedronMesh};
 
 /// Writes a mesh in file coordinates: `f32` where the origin is zero, `f64` otherwise.
@@ -10,7 +10,7 @@ use crate::{FileReport, Kind, MeshError, ScalarType, TetrahedronMesh};
 /// # Errors
 ///
 /// [`MeshError::Io`].
-pub(in crate::volume) fn write(
+pub(in crate::files::volume) fn write(
     mesh: &TetrahedronMesh,
     out: &mut dyn Write,
     report: &mut FileReport,
