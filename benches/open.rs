@@ -1,7 +1,7 @@
 //! Opening a file, mapped and read, beside reading the bytes alone; and the first cut from a mapped
 //! file, with the file in the page cache and, on Linux, after the page cache was dropped.
 
-#![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
+#![expect(unsafe_code, reason = "nobody writes to the files that are mapped here")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on has failed")]
 #![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
 
@@ -60,7 +60,7 @@ fn first_cut(path: &Path) -> Vec<u32> {
     indices
 }
 
-/// Makes the system read the file from the disk again; does nothing where that is not possible.
+/// Makes the system read the file from the disk again; does nothing if that is not possible.
 fn forget_file(path: &Path) {
     #[cfg(target_os = "linux")]
     {

@@ -1,21 +1,23 @@
 //! One mesh in, every level of detail out, each with an error that is stated.
 //!
-//! [`build()`] makes the levels, [`Build::write`] keeps them in one file, and [`Lod`] answers which triangles make the mesh at
-//! an error, a budget or a distance. `docs/drawing-a-level.md` in the repository shows how a level goes to a graphics library,
-//! from wgpu to WebGL.
+//! [`build()`] makes the levels, [`Build::write`] keeps them in one file, and [`Lod`] answers which
+//! triangles make the mesh at an error, a budget or a distance. `docs/drawing-a-level.md` in the
+//! repository shows how a level goes to a graphics library, from wgpu to WebGL.
 //!
-//! * Build: [`build()`] and [`build_with`] from a [`TriangleMesh`] under [`BuildOptions`], [`build_volume`] from a
-//!   [`TetrahedronMesh`] under [`VolumeOptions`]. A [`History`] that something else has made is written by
-//!   [`History::write`].
-//! * Ask: [`Lod::at_error`] and its like give a [`Cut`], whose [`Run`]s are drawn or copied as they are. A [`Picker`] chooses a
-//!   level for a [`View`], [`Lod::delta`] and [`Lod::geomorph`] lead from one level to another.
-//! * Trust: [`Lod::verify`] checks every rule of the format, [`ErrorTable`] proves the errors of a file anew, and [`measure`]
-//!   compares any two surfaces.
-//! * Stream: a [`ProgressiveMesh`] is built up by the operations of a progressive build, one by one as they arrive.
+//! * Build: [`build()`] and [`build_with`] from a [`TriangleMesh`] under [`BuildOptions`],
+//!   [`build_volume`] from a [`TetrahedronMesh`] under [`VolumeOptions`]. A [`History`] that
+//!   something else has made is written by [`History::write`].
+//! * Ask: [`Lod::at_error`] and its like give a [`Cut`], whose [`Run`]s are drawn or copied as they
+//!   are. A [`Picker`] chooses a level for a [`View`], [`Lod::delta`] and [`Lod::geomorph`] lead
+//!   from one level to another.
+//! * Trust: [`Lod::verify`] checks every rule of the format, [`ErrorTable`] proves the errors of a
+//!   file anew, and [`measure`] compares any two surfaces.
+//! * Stream: a [`ProgressiveMesh`] is built up by the operations of a progressive build, one by one
+//!   as they arrive.
 //!
-//! Two features are on by default. Without `build` there are no decimators: the crate opens, verifies
-//! and queries files and writes histories. Without `measure` there is no distance between meshes
-//! either.
+//! Two features are on by default. Without `build` there are no decimators: the crate opens,
+//! verifies and queries files and writes histories. Without `measure` there is no distance between
+//! meshes either.
 #![cfg_attr(
     not(feature = "build"),
     allow(

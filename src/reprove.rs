@@ -1,9 +1,10 @@
 //! Proving a file's error table anew, from the file alone.
 //!
-//! The builder states each level's error from a map that it carried along. Nothing of that is used here: the finest level
-//! of the file is the input, every level is a mesh, and the distance between the two is bounded in both directions by
-//! branch and bound ([`check_within`]). The two proofs share no code beyond the distance of a point to a triangle. Of a volume
-//! the surface around it is taken, on which its errors are.
+//! The builder states each level's error from a map that it carried along. Nothing of that is used
+//! here: the finest level of the file is the input, every level is a mesh, and the distance between
+//! the two is bounded in both directions by branch and bound ([`check_within`]). The two proofs
+//! share no code beyond the distance of a point to a triangle. Of a volume the surface around it is
+//! taken, on which its errors are.
 
 use crate::measure::{MeasureError, Verdict, check_within};
 use crate::query::{Cut, Lod, QueryError};
@@ -19,8 +20,8 @@ pub struct ErrorTable<'a> {
     lod: &'a Lod,
     input: TriangleMesh,
     last_certified: u32,
-    /// Added to every stated error: what rounding moves the vertices of a volume's boundary that stay
-    /// in one plane or line. 0 for surfaces, whose errors count it in.
+    /// Added to every stated error: what rounding moves the vertices of a volume's boundary that
+    /// stay in one plane or line. 0 for surfaces, whose errors count it in.
     slack: f64,
 }
 
@@ -37,7 +38,8 @@ pub enum ReproveError {
         /// What the file's metadata say the errors are.
         found: Bound,
     },
-    /// The file does not claim a proof for this level, as where a decimator has changed the topology.
+    /// The file does not claim a proof for this level, as where a decimator has changed the
+    /// topology.
     #[error("level {level} carries an estimate, certified are the errors up to level {last_certified}")]
     Estimate {
         /// The level.
@@ -101,13 +103,14 @@ impl<'a> ErrorTable<'a> {
         self.last_certified
     }
 
-    /// Proves that no point of level `level` is farther from the input than the level's error, nor the other way round.
-    /// Level 0 is the input, so there is nothing to prove. Costs about as much as measuring the distance.
+    /// Proves that no point of level `level` is farther from the input than the level's error, nor
+    /// the other way round. Level 0 is the input, so there is nothing to prove. Costs about as much
+    /// as measuring the distance.
     ///
     /// # Errors
     ///
-    /// [`ReproveError::Exceeded`] when the error is wrong, [`ReproveError::Undecided`] when this proof fails, and what
-    /// stands in the way of trying.
+    /// [`ReproveError::Exceeded`] when the error is wrong, [`ReproveError::Undecided`] when this
+    /// proof fails, and what stands in the way of trying.
     pub fn prove(&self, level: u32) -> Result<(), ReproveError> {
         let cut = self.lod.at_level(level);
         if cut.level() == 0 {

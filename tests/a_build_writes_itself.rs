@@ -1,5 +1,5 @@
-//! Promise: a file states which decimator made it, what its errors mean and what the input was; and it states no more than
-//! is true.
+//! Promise: a file states which decimator made it, what its errors mean and what the input was; and
+//! it states no more than is true.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -1,5 +1,5 @@
-//! Promise: a build that its observer breaks off ends as interrupted, at any call and in every phase, and
-//! the observer is not called again.
+//! Promise: a build that its observer breaks off ends as interrupted, at any call and in every
+//! phase, and the observer is not called again.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use nephrite::{
@@ -9,8 +9,8 @@ use nephrite::{
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-/// Runs a build with an observer that breaks at call `last`, counted from 0; returns the phases of its calls
-/// and the end of the build.
+/// Runs a build with an observer that breaks at call `last`, counted from 0; returns the phases of
+/// its calls and the end of the build.
 fn run_until<T>(
     build: &dyn Fn(Observer<'_>) -> Result<T, BuildError>,
     last: usize,

@@ -165,11 +165,13 @@ fn what_the_repair_drops_counts_at_every_level() {
         assert!(build.history().errors.iter().all(|&error| error >= build.dropped_distance()));
         (*build.repairs(), build.dropped_distance())
     };
-    // The middle of the edge that goes is 0.5 above that of the edge that comes, and 0.5 sin(54.7) from the faces there.
+    // The middle of the edge that goes is 0.5 above that of the edge that comes, and 0.5 sin(54.7)
+    // from the faces there.
     let (repairs, distance) = build(&inside_out());
     assert_eq!(repairs.tetrahedra_peeled, 1);
     assert!((0.408..0.413).contains(&distance), "{distance}");
-    // Tetrahedra with fewer than four points: an edge of another one, and a triangle 5 units high beside it.
+    // Tetrahedra with fewer than four points: an edge of another one, and a triangle 5 units high
+    // beside it.
     let mut mesh = TetrahedronMesh { tetrahedra: vec![[3, 2, 0, 4], [0, 0, 2, 3]], ..inside_out() };
     assert_eq!(build(&mesh).1, 0.0);
     mesh.positions.push([0.0, 0.0, 6.0]);

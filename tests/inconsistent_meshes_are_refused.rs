@@ -1,4 +1,5 @@
-//! Promise: a mesh that contradicts itself is refused with what is wrong and where, before anything else is done with it.
+//! Promise: a mesh that contradicts itself is refused with what is wrong and where, before anything
+//! else is done with it.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -16,7 +17,8 @@ mod watchdog;
 /// What is wrong, and how a mesh comes to be so.
 type Fault = (MeshFault, fn(&mut TriangleMesh));
 
-/// Every fault but NaN, which is not equal to itself, and wrong indices, which each kind of simplex has of its own.
+/// Every fault but NaN, which is not equal to itself, and wrong indices, which each kind of simplex
+/// has of its own.
 fn faults() -> Vec<Fault> {
     vec![
         (MeshFault::Rounding { found: -1.0 }, |mesh| mesh.rounding = -1.0),

@@ -1,7 +1,7 @@
 //! Promise: opening reads the head only, whatever the size and the source of the file. Offsets
 //! beyond 4 GiB work.
 
-#![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
+#![expect(unsafe_code, reason = "nobody writes to the files that are mapped here")]
 #![allow(
     clippy::cast_possible_truncation,
     clippy::unwrap_used,

@@ -1,7 +1,7 @@
 //! Promise: after a failed write the path holds what it held before, nothing is left beside it, and
 //! readers of the old file keep it.
 
-#![expect(unsafe_code, reason = "files are mapped here, as by whoever keeps the contract")]
+#![expect(unsafe_code, reason = "nobody writes to the files that are mapped here")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod support;

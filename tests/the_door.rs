@@ -1,4 +1,5 @@
-//! Promise: the root of the library stays small, and whatever it offers is used by an example, a test or the program.
+//! Promise: the root of the library stays small, and whatever it offers is used by an example, a
+//! test or the program.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -13,7 +14,8 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Names that `lib.rs` exports: those of its `pub use` and its public modules, but for what is hidden.
+/// Names that `lib.rs` exports: those of its `pub use` and its public modules, but for what is
+/// hidden.
 fn names() -> BTreeSet<String> {
     let source = fs::read_to_string(root().join("src/lib.rs")).unwrap();
     let (_, public) = source.split_once("\n}\n").unwrap();

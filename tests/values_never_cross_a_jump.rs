@@ -1,5 +1,5 @@
-//! Promise: where a field of a volume jumps, each side keeps its values at every level, and the place of the jump stays. Vertices
-//! at one position with the same values are one.
+//! Promise: where a field of a volume jumps, each side keeps its values at every level, and the
+//! place of the jump stays. Vertices at one position with the same values are one.
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "small meshes")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

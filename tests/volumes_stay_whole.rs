@@ -50,7 +50,7 @@ fn topology(surface: &TriangleMesh) -> (i64, usize) {
             roots[p.max(q) as usize] = p.min(q);
         }
     }
-    assert!(edges.values().all(|&n_faces| n_faces == 2), "the boundary is no surface");
+    assert!(edges.values().all(|&n_faces| n_faces == 2), "the boundary is not a surface");
     let n_components = roots.iter().enumerate().filter(|&(v, &root)| v == root as usize).count();
     let [n_vertices, n_edges, n_triangles] =
         [surface.positions.len(), edges.len(), surface.triangles.len()].map(|n| i64::try_from(n).unwrap());

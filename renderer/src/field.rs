@@ -95,7 +95,7 @@ impl Field {
         self.instances.len()
     }
 
-    /// Whether there are none.
+    /// Whether the field has no instances.
     pub fn is_empty(&self) -> bool {
         self.instances.is_empty()
     }

@@ -23,7 +23,8 @@ pub enum BuildError {
     /// The mesh contradicts itself.
     #[error("the mesh contradicts itself: {0}")]
     Mesh(#[from] MeshFault),
-    /// More vertices or simplices than ids of 32 bits have room for: 2^31 - 1 vertices, 2^29 - 1 simplices.
+    /// More vertices or simplices than ids of 32 bits have room for: 2^31 - 1 vertices, 2^29 - 1
+    /// simplices.
     #[error("{found} {what}, there can be at most {limit}")]
     TooLarge {
         /// What is counted, in the plural.

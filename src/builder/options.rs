@@ -13,7 +13,8 @@ use serde_json::{Value, json};
 pub enum Decimator {
     /// Vertex removal under a bound on the global error. Keeps the topology.
     Jade(JadeOptions),
-    /// Edge collapses and vertex splits that change the topology where they must, down to no triangle.
+    /// Edge collapses and vertex splits that change the topology where they must, down to no
+    /// triangle.
     Progressive(ProgressiveOptions),
 }
 
@@ -33,8 +34,8 @@ pub struct BuildOptions {
     pub max_error: Option<f64>,
     /// Edges at which the normals turn by more than this, in degrees, are feature edges.
     pub feature_angle_degrees: f64,
-    /// Whether the vertices on the boundary stay at every level, where they are, so that meshes that
-    /// meet there fit at any levels. No new edge joins two of them.
+    /// Whether the vertices on the boundary stay at every level, where they are, so that meshes
+    /// that meet there fit at any levels. No new edge joins two of them.
     pub lock_boundary: bool,
     /// The decimator, and what its errors mean.
     pub decimator: Decimator,
@@ -52,10 +53,11 @@ pub struct BuildOptions {
 pub struct VolumeOptions {
     /// Largest error of any level, in mesh units; `None` simplifies as far as it goes.
     pub max_error: Option<f64>,
-    /// Edges of the boundary at which its normals turn by more than this, in degrees, are feature edges.
+    /// Edges of the boundary at which its normals turn by more than this, in degrees, are feature
+    /// edges.
     pub feature_angle_degrees: f64,
-    /// Whether the vertices of the boundary stay, each at its place at every level, so that neighbouring parts of one volume fit
-    /// at any level of each.
+    /// Whether the vertices of the boundary stay, each at its place at every level, so that
+    /// neighbouring parts of one volume fit at any level of each.
     pub lock_boundary: bool,
     /// Constants of the fusion.
     pub fusion: FusionOptions,
@@ -129,7 +131,8 @@ impl BuildOptions {
         }
     }
 
-    /// What a file says of them: the decimator's own options under its name, as they were in effect.
+    /// What a file says of them: the decimator's own options under its name, as they were in
+    /// effect.
     pub(super) fn to_json(self) -> Value {
         let mut options = json!({
             "method": self.method(),

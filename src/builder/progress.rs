@@ -20,7 +20,7 @@ pub struct Progress {
 /// Parts of a build.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// Welding and dropping what is no surface.
+    /// Welding vertices, and dropping triangles that are not part of a surface.
     Repair,
     /// Removing vertices.
     Decimate,

@@ -34,9 +34,9 @@ impl<'a> From<Vertices<'a>> for Spanned<'a> {
 /// Length of the diagonal of the bounding box of a mesh, in mesh units: what percentages of error
 /// refer to.
 ///
-/// The box holds the simplices whose corners are all in different places. They have the vertices that
-/// a file has, so that [`Lod::bounding_diagonal`](crate::Lod::bounding_diagonal) of a file built from
-/// a surface is the same length. 0 without such simplices.
+/// The box holds the simplices whose corners are all in different places. They have the vertices
+/// that a file has, so that [`Lod::bounding_diagonal`](crate::Lod::bounding_diagonal) of a file
+/// built from a surface is the same length. 0 without such simplices.
 ///
 /// ```
 /// let mesh = nephrite::generate::box_volume([2; 3]);

@@ -8,16 +8,18 @@ use std::io::{Seek, Write};
 use std::path::Path;
 
 impl Build {
-    /// Writes all levels to a file at `path`, with what the build was asked for and what its errors mean.
+    /// Writes all levels to a file at `path`, with what the build was asked for and what its errors
+    /// mean.
     ///
-    /// The file is written beside `path`, synced, read back against its checksums, renamed into place, and the folder synced. At
-    /// any moment `path` holds what it held before or the whole new file; a map of the old file stays valid. A link at `path`
-    /// stays and its target is replaced. The next write of the same file removes what a killed one has left.
+    /// The file is written beside `path`, synced, read back against its checksums, renamed into
+    /// place, and the folder synced. At any moment `path` holds what it held before or the whole
+    /// new file; a map of the old file stays valid. A link at `path` stays and its target is
+    /// replaced. The next write of the same file removes what a killed one has left.
     ///
     /// # Errors
     ///
-    /// [`WriteError`]; the temporary file is removed and `path` is as it was. When only the last sync of the folder fails, the
-    /// new file is in place and may be lost by a crash of the system.
+    /// [`WriteError`]; the temporary file is removed and `path` is as it was. When only the last
+    /// sync of the folder fails, the new file is in place and may be lost by a crash of the system.
     ///
     /// ```
     /// use nephrite::{Bound, StoreOptions};

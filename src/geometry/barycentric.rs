@@ -13,14 +13,14 @@ pub(crate) fn barycentric(point: Vector, [a, b, c, d]: [Vector; 4]) -> Option<[f
     Some([1.0 - u - v - w, u, v, w])
 }
 
-/// The value inside a tetrahedron. Where values at corners are not finite, the nearest corner decides: a value that is not finite
-/// stays, and one that is counts with the other finite ones.
+/// The value inside a tetrahedron. Where values at corners are not finite, the nearest corner
+/// decides: a value that is not finite stays, and one that is counts with the other finite ones.
 pub(crate) fn interpolate(values: [f64; 4], weights: [f64; 4]) -> f64 {
     if values.iter().all(|value| value.is_finite()) {
         // About one corner: a field that is constant there stays so to the last bit.
         let sum: f64 = (1..4).map(|i| weights[i] * (values[i] - values[0])).sum();
         let value = sum + values[0];
-        // Differences of the largest numbers are none.
+        // Differences of the largest numbers overflow.
         let mean = || values.iter().zip(weights).map(|(value, weight)| weight * value).sum::<f64>();
         return if value.is_finite() { value } else { mean().clamp(-f64::MAX, f64::MAX) };
     }

@@ -1,11 +1,12 @@
 //! Levels: the steps that a file keeps.
 //!
-//! A decimator counts every removal, some 34,000 steps for the bunny. Nobody asks for a mesh between two removals of a
-//! triangle each, and triangles that are born and die between two kept steps need not be stored, so a file keeps few
-//! steps, spread evenly on the scale on which levels of detail are chosen: the logarithm of the simplex count. With at
-//! most `n` levels that scale is cut into `n - 1` intervals from the input to the coarsest step, and one step of each
-//! interval is kept: the first one after which the error rises, or the first one if the error does not rise in the interval.
-//! By default an interval is a factor of 64/63.
+//! A decimator counts every removal, some 34,000 steps for the bunny. Nobody asks for a mesh
+//! between two removals of a triangle each, and triangles that are born and die between two kept
+//! steps need not be stored, so a file keeps few steps, spread evenly on the scale on which levels
+//! of detail are chosen: the logarithm of the simplex count. With at most `n` levels that scale is
+//! cut into `n - 1` intervals from the input to the coarsest step, and one step of each interval is
+//! kept: the first one after which the error rises, or the first one if the error does not rise in
+//! the interval. By default an interval is a factor of 64/63.
 
 use super::{History, HistoryError, NEVER};
 use crate::tree::Lifetime;
@@ -13,13 +14,15 @@ use crate::tree::Lifetime;
 /// Each level of a file has about this part of the simplices of the level before.
 pub(super) const LEVEL_RATIO: f64 = 63.0 / 64.0;
 
-/// The step before an error of so many times its own is kept whatever its interval: an error inflection point (W. J. Schroeder, "A
-/// topology modifying progressive decimation algorithm", 1997, section 4.8), a natural place to stop.
+/// The step before an error of so many times its own is kept whatever its interval: an error
+/// inflection point (W. J. Schroeder, "A topology modifying progressive decimation algorithm",
+/// 1997, section 4.8), a natural place to stop.
 pub(super) const LEAP_RATIO: f64 = 10.0;
 
 /// Which steps a file keeps as levels.
 ///
-/// Memory: 4 bytes per step. Invariants: `steps[0] == 0`, steps ascend strictly, simplex counts never rise.
+/// Memory: 4 bytes per step. Invariants: `steps[0] == 0`, steps ascend strictly, simplex counts
+/// never rise.
 ///
 /// ```
 /// use nephrite::{History, Levels, NEVER};
@@ -57,8 +60,8 @@ impl Levels {
     ///
     /// # Errors
     ///
-    /// The first invariant of the history that does not hold, and [`HistoryError::Grows`] when the coarsest step has more
-    /// simplices than the input.
+    /// The first invariant of the history that does not hold, and [`HistoryError::Grows`] when the
+    /// coarsest step has more simplices than the input.
     pub fn choose<const CORNERS: usize>(
         history: &History<CORNERS>,
         limit: Option<u32>,
@@ -73,7 +76,8 @@ impl Levels {
         limit: Option<u32>,
     ) -> Result<Self, HistoryError> {
         let alive = alive_counts(history);
-        // Deviations are maxima over the mesh and the error is the boundary's: all stand still while the mesh changes elsewhere.
+        // Deviations are maxima over the mesh and the error is the boundary's: all stand still
+        // while the mesh changes elsewhere.
         let is_always = !history.deviations.is_empty();
         let rises = |step: usize| is_always || history.errors[step + 1] > history.errors[step];
         // Errors that are not zero leap at most some six hundred times within their range.
@@ -114,7 +118,7 @@ impl Levels {
         &self.simplex_counts
     }
 
-    /// First level at or after `step`; the number of levels when there is none, as for [`NEVER`].
+    /// First level at or after `step`; the number of levels if no level follows, as for [`NEVER`].
     pub fn at_or_after(&self, step: u32) -> u32 {
         let n_levels = self.n_levels();
         if step == NEVER {
@@ -133,7 +137,8 @@ impl Levels {
 /// Simplices alive at each step.
 fn alive_counts<const CORNERS: usize>(history: &History<CORNERS>) -> Vec<u32> {
     let mut alive = vec![0u32; history.errors.len()];
-    // Differences first; births before deaths of the same simplex keep every partial sum a count, wrapping or not.
+    // Differences first; births before deaths of the same simplex keep every partial sum a count,
+    // wrapping or not.
     for (&birth, &death) in history.birth.iter().zip(&history.death) {
         if let Some(count) = alive.get_mut(birth as usize) {
             *count = count.wrapping_add(1);
@@ -150,7 +155,8 @@ fn alive_counts<const CORNERS: usize>(history: &History<CORNERS>) -> Vec<u32> {
     alive
 }
 
-/// `rises` tells whether a step is a choice beside the step after it, `leaps` whether it is the only one.
+/// `rises` tells whether a step is a choice beside the step after it, `leaps` whether it is the
+/// only one.
 fn choose_steps(
     rises: impl Fn(usize) -> bool,
     leaps: impl Fn(usize) -> bool,
@@ -306,7 +312,8 @@ mod tests {
             let part_of = |count: u32| if span > 0.0 { octaves(finest, count) / span } else { 0.0 };
             let interval = |step: u32| (part_of(alive[step as usize]) * n_intervals).floor();
             for step in (1..).take(last - 1) {
-                // Every interval has a level, and the first step of an interval after which the error rises is it.
+                // Every interval has a level, and the first step of an interval after which the
+                // error rises is it.
                 let is_choice = interval(step) > 0.0 && interval(step) < (part_of(alive[last]) * n_intervals).floor();
                 let level = steps.iter().copied().find(|&kept| interval(kept) == interval(step));
                 prop_assert!(!is_choice || level.is_some());

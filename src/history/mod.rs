@@ -39,8 +39,8 @@ pub struct History<const CORNERS: usize = 3> {
     pub vertex_birth: Vec<u32>,
     /// Step at which each vertex is gone, or [`NEVER`].
     pub vertex_death: Vec<u32>,
-    /// Error of the mesh at each step, in mesh units; `errors[0]` is that of the input itself. Infinite from the step on that leaves
-    /// nothing whose distance could be measured.
+    /// Error of the mesh at each step, in mesh units; `errors[0]` is that of the input itself.
+    /// Infinite from the step on that leaves nothing whose distance could be measured.
     pub errors: Vec<f64>,
     /// Other numbers that the decimator states for each step.
     pub deviations: Vec<Deviation>,

@@ -30,7 +30,7 @@ impl Pair {
     ///
     /// # Errors
     ///
-    /// [`MeasureError`] if one of them is no surface.
+    /// [`MeasureError`] if one of them is not a surface.
     pub(super) fn new(reference: &TriangleMesh, mesh: &TriangleMesh) -> Result<Self, MeasureError> {
         for (side, found) in [(Side::Reference, reference.rounding), (Side::Mesh, mesh.rounding)] {
             if !(found.is_finite() && found >= 0.0) {

@@ -82,8 +82,8 @@ impl TriangleTree {
         best
     }
 
-    /// Shows `improve` all triangles whose boxes are nearer to each of the corners than the best distance so far, the nearest boxes
-    /// first.
+    /// Shows `improve` all triangles whose boxes are nearer to each of the corners than the best
+    /// distance so far, the nearest boxes first.
     #[inline(always)]
     pub(super) fn walk(
         &self,
@@ -169,8 +169,9 @@ impl TriangleTree {
     }
 }
 
-/// [`TriangleTree::search_batch`], also compiled for wider vectors, which are used if the machine has them.
-/// The operations and their order are the same, hence the bits too; the time is two thirds.
+/// [`TriangleTree::search_batch`], also compiled for wider vectors, which are used if the machine
+/// has them. The operations and their order are the same, hence the bits too; the time is two
+/// thirds.
 #[multiversion(targets("x86_64+avx2"))]
 fn search_batch(
     tree: &TriangleTree,

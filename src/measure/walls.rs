@@ -1,8 +1,8 @@
 //! Triangles of a closed surface that lie on others of it the other way round.
 //!
-//! Where a mesh is refined on one side of a face and not on the other, nodes hang: the faces on both
-//! sides have different corners, and each belongs to one tetrahedron only. The boundary then has a
-//! wall inside, of two sheets at no distance.
+//! Where a mesh is refined on one side of a face and not on the other, nodes hang: the faces on
+//! both sides have different corners, and each belongs to one tetrahedron only. The boundary then
+//! has a wall inside, of two sheets at no distance.
 
 use super::bvh::{self, Child, LANES, Node};
 use crate::geometry::distance::{Triangle, point_triangle_distance_sq};
@@ -27,10 +27,10 @@ pub(crate) struct InnerWalls {
     pub area: f64,
 }
 
-/// Finds inner walls in the boundary of a volume; `apexes` has the fourth corner of the tetrahedron at
-/// each triangle. A triangle counts whole if its centroid is on another one that looks the other way.
-/// Those of tetrahedra as flat as the tolerance do not count: both sides of a sheet are no wall.
-/// O(n log n).
+/// Finds inner walls in the boundary of a volume; `apexes` has the fourth corner of the tetrahedron
+/// at each triangle. A triangle counts whole if its centroid is on another one that looks the other
+/// way. Faces of tetrahedra as flat as the tolerance do not count: the two sides of a sheet are not
+/// a wall. O(n log n).
 pub(crate) fn inner_walls(surface: &[Triangle], apexes: &[Vector]) -> InnerWalls {
     if surface.is_empty() {
         return InnerWalls::default();
@@ -78,7 +78,8 @@ impl Face {
     }
 }
 
-/// Whether `is_meant` holds for a triangle whose box is near to a point, of so many as are looked at.
+/// Whether `is_meant` holds for a triangle whose box is near to a point, among the first
+/// [`MAX_NODES`] that are visited.
 fn is_near(nodes: &[Node], point: Vector, tolerance_sq: f64, is_meant: impl Fn(u32) -> bool) -> bool {
     let mut stack = vec![0];
     let mut n_nodes = 0;
@@ -123,7 +124,7 @@ mod tests {
 
     #[test]
     fn hanging_nodes_make_a_wall_of_twice_the_area_between() {
-        // Both sides of a sheet are none.
+        // The two sides of a sheet are not a wall.
         let mut sheet = box_volume([4, 4, 1]);
         sheet.positions.iter_mut().for_each(|p| p[2] *= 1e-8);
         assert_eq!(walls(&sheet), InnerWalls::default());

@@ -1,7 +1,7 @@
 //! The answer to a query.
 //!
-//! This file and `lod` name each other: a cut refers to the [`Lod`] that it is a level of, and a `Lod`
-//! makes cuts.
+//! This file and `lod` name each other: a cut refers to the [`Lod`] that it is a level of, and a
+//! `Lod` makes cuts.
 
 use super::lod::from_file;
 use super::used::UsedVertices;
@@ -43,7 +43,8 @@ impl<'a> Cut<'a> {
         self.level
     }
 
-    /// Error of the level, in mesh units. Infinite if no bound is stated, as for a level without triangles.
+    /// Error of the level, in mesh units. Infinite if no bound is stated, as for a level without
+    /// triangles.
     pub fn error(&self) -> f64 {
         from_file(self.lod.errors()[self.level as usize])
     }

@@ -6,9 +6,10 @@ use std::path::Path;
 
 /// All levels of detail of one mesh, from an opened `.neph` file.
 ///
-/// Shared freely between threads. No query allocates or waits. Level 0 is the input, the last level the coarsest; there is
-/// at least one. A file that opens may still be damaged: then answers are wrong, but every run stays inside
-/// [`indices`](Self::indices) and every prefix inside [`vertices`](Self::vertices). [`verify`](Self::verify) tells.
+/// Shared freely between threads. No query allocates or waits. Level 0 is the input, the last level
+/// the coarsest; there is at least one. A file that opens may still be damaged: then answers are
+/// wrong, but every run stays inside [`indices`](Self::indices) and every prefix inside
+/// [`vertices`](Self::vertices). [`verify`](Self::verify) tells.
 ///
 /// ```no_run
 /// # fn draw_indexed(_: std::ops::Range<usize>) {}
@@ -27,7 +28,8 @@ pub struct Lod {
 /// One level on the curve of error against size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// Error of the level, in mesh units; infinite if no bound is stated, as for a level without triangles.
+    /// Error of the level, in mesh units; infinite if no bound is stated, as for a level without
+    /// triangles.
     pub error: f64,
     /// Its simplices: triangles of a surface, tetrahedra of a volume.
     pub simplices: u32,
@@ -65,9 +67,10 @@ impl Lod {
         Opened::from_bytes(bytes).map(Self::from)
     }
 
-    /// Opens a file where it lies in memory: in a vector, behind an `Arc`, in a map of somebody else's, or in what a caller from
-    /// another language gives access to. The bytes must begin at a multiple of 8; a copy is made if they do not. They must stay
-    /// the same as long as the result lives: answers are wrong otherwise, though never out of range.
+    /// Opens a file where it lies in memory: in a vector, behind an `Arc`, in a map made elsewhere,
+    /// or in the memory of a caller in another language. The bytes must begin at a multiple of 8; a
+    /// copy is made if they do not. They must stay the same as long as the result lives: answers are
+    /// wrong otherwise, though never out of range.
     ///
     /// # Errors
     ///
@@ -88,21 +91,22 @@ impl Lod {
         Opened::from_owner(owner).map(Self::from)
     }
 
-    /// The coarsest level whose error is at most `error` (mesh units): the last one, for errors never fall. Level 0 where
-    /// there is none, as for negative errors and NaN. Cost: a binary search over the levels.
+    /// The coarsest level whose error is at most `error` (mesh units): the last one, for errors
+    /// never fall. Level 0 if no level has so small an error, as for negative errors and NaN. Cost:
+    /// a binary search over the levels.
     pub fn at_error(&self, error: f64) -> Cut<'_> {
         let n_within = self.errors().partition_point(|&stated| stated <= error);
         self.at_index(n_within.saturating_sub(1))
     }
 
-    /// The finest level with at most `n_simplices` simplices; the coarsest level if every level has more.
-    /// Cost: a binary search over the levels.
+    /// The finest level with at most `n_simplices` simplices; the coarsest level if every level has
+    /// more. Cost: a binary search over the levels.
     pub fn at_count(&self, n_simplices: usize) -> Cut<'_> {
         let n_above = self.file.simplex_counts().partition_point(|&stated| stated as usize > n_simplices);
         self.at_index(n_above)
     }
 
-    /// The given level; the coarsest one where there is no such level.
+    /// The given level; the coarsest one if there is no such level.
     pub fn at_level(&self, level: u32) -> Cut<'_> {
         Cut::new(self, level.min(self.n_levels() - 1))
     }
@@ -112,20 +116,21 @@ impl Lod {
         self.file.header().n_levels
     }
 
-    /// Error of each level in mesh units, never falling; `f64::MAX` if no bound is stated, as for levels without triangles, where
-    /// [`Cut::error`] is infinite. Length: [`n_levels`](Self::n_levels).
+    /// Error of each level in mesh units, never falling; `f64::MAX` if no bound is stated, as for
+    /// levels without triangles, where [`Cut::error`] is infinite. Length:
+    /// [`n_levels`](Self::n_levels).
     pub fn errors(&self) -> &[f64] {
         self.file.errors()
     }
 
-    /// What the levels state beside their errors, such as how far each field of a volume has come from that of the input: name
-    /// and a number per level, never falling. These are estimates.
+    /// What the levels state beside their errors, such as how far each field of a volume has come
+    /// from that of the input: name and a number per level, never falling. These are estimates.
     pub fn deviations(&self) -> impl Iterator<Item = (&str, &[f64])> {
         self.file.deviations()
     }
 
-    /// The whole curve, finest level first. Cost: in a file with [births](Self::vertex_births) one pass over them and 4 bytes
-    /// per level.
+    /// The whole curve, finest level first. Cost: in a file with [births](Self::vertex_births) one
+    /// pass over them and 4 bytes per level.
     pub fn curve(&self) -> impl ExactSizeIterator<Item = CurvePoint> + '_ {
         let mut n_unborn = self.unborn_counts().into_iter();
         let counts = self.file.simplex_counts().iter().zip(self.file.vertex_counts());
@@ -139,7 +144,8 @@ impl Lod {
         })
     }
 
-    /// Vertices born after each level; empty where all are born at level 0. Every one of them dies later still.
+    /// Vertices born after each level; empty where all are born at level 0. Every one of them dies
+    /// later still.
     fn unborn_counts(&self) -> Vec<u32> {
         let births = self.vertex_births();
         if births.is_empty() {
@@ -157,18 +163,20 @@ impl Lod {
         counts
     }
 
-    /// First level that has each vertex, in the order of [`vertices`](Self::vertices); empty where level 0 has them all, as
-    /// after a decimator that only removes.
+    /// First level that has each vertex, in the order of [`vertices`](Self::vertices); empty where
+    /// level 0 has them all, as after a decimator that only removes.
     pub fn vertex_births(&self) -> &[u32] {
         self.file.vertex_births()
     }
 
-    /// Positions of all vertices, relative to [`origin`](Self::origin). The vertices of any level are in a prefix.
+    /// Positions of all vertices, relative to [`origin`](Self::origin). The vertices of any level
+    /// are in a prefix.
     pub fn vertices(&self) -> &[[f32; 3]] {
         self.file.positions()
     }
 
-    /// Vertex indices of all slots, [`n_corners`](Self::n_corners) each: the buffer that runs refer to.
+    /// Vertex indices of all slots, [`n_corners`](Self::n_corners) each: the buffer that runs refer
+    /// to.
     pub fn indices(&self) -> &[u32] {
         self.file.simplices()
     }
@@ -219,7 +227,7 @@ impl Lod {
     ///
     /// # Errors
     ///
-    /// Where the metadata of the file is no JSON object of the known shape.
+    /// If the metadata of the file is not a JSON object of the known shape.
     pub fn metadata(&self) -> Result<Metadata, serde_json::Error> {
         self.file.metadata()
     }
@@ -244,7 +252,8 @@ impl Lod {
         self.file.verify()
     }
 
-    /// The operations of a progressive build, for [`ProgressiveMesh`](crate::ProgressiveMesh); empty if the file has none.
+    /// The operations of a progressive build, for [`ProgressiveMesh`](crate::ProgressiveMesh);
+    /// empty if the file has none.
     pub fn operations(&self) -> &[u8] {
         self.file.operations()
     }

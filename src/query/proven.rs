@@ -4,8 +4,8 @@ use super::{Cut, Lod, Simplex};
 use crate::store::{Bound, Metadata};
 
 impl Lod {
-    /// The last level whose error the file calls proven; `None` if all its errors are estimates. Cost: a binary search over the
-    /// levels.
+    /// The last level whose error the file calls proven; `None` if all its errors are estimates.
+    /// Cost: a binary search over the levels.
     pub fn last_proven(&self, metadata: &Metadata) -> Option<u32> {
         let proven = match self.simplex() {
             Simplex::Triangle => Bound::Certified,
@@ -20,8 +20,8 @@ impl Lod {
 }
 
 impl Cut<'_> {
-    /// Whether the file calls the [error](Self::error) of the level proven; otherwise it is an estimate. False if the metadata
-    /// cannot be read. Cost: the metadata are read.
+    /// Whether the file calls the [error](Self::error) of the level proven; otherwise it is an
+    /// estimate. False if the metadata cannot be read. Cost: the metadata are read.
     ///
     /// ```
     /// use nephrite::{BuildOptions, EstimateKind, JadeOptions, Lod, StoreOptions, build, generate};

@@ -1,4 +1,5 @@
-//! The content of a new file: which sections it has, how long each is, and what is streamed into it.
+//! The content of a new file: which sections it has, how long each is, and what is streamed into
+//! it.
 
 use super::arrange::VertexOrder;
 use super::attributes::AttributeSections;

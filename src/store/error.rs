@@ -89,7 +89,7 @@ pub enum WriteError {
         /// How many a file holds.
         max: u64,
     },
-    /// The metadata is no JSON, as when a map has keys that are no strings.
+    /// The metadata cannot be written as JSON, as a map whose keys are not strings.
     #[error("metadata cannot be written as JSON")]
     Metadata(#[from] serde_json::Error),
     /// The metadata is longer than a file holds.
@@ -179,7 +179,7 @@ pub enum VerifyError {
         /// Where.
         offset: u64,
     },
-    /// The metadata is no JSON of the known shape.
+    /// The metadata is not JSON of the known shape.
     #[error("metadata is not readable")]
     Metadata(#[from] serde_json::Error),
     /// An error is negative or not finite, or the table falls.

@@ -1,7 +1,8 @@
 //! Mapping a file: the one module with `unsafe`.
 //!
-//! A map shows the file, not a copy of it. That is what makes opening cheap and lets many processes share one page cache,
-//! and it is why mapping cannot be a safe function: Rust promises that bytes behind a shared reference do not change.
+//! A map shows the file, not a copy of it. That is what makes opening cheap and lets many processes
+//! share one page cache, and it is why mapping cannot be a safe function: Rust promises that bytes
+//! behind a shared reference do not change.
 
 #![expect(unsafe_code, reason = "a map shows what others write to the file, see above")]
 
@@ -24,8 +25,9 @@ impl Opened {
     pub unsafe fn map(path: impl AsRef<Path>) -> Result<Self, OpenError> {
         let path = path.as_ref();
         let file = open_regular(path)?;
-        // SAFETY: the caller promises that the file is neither written nor truncated while the map lives, which is what
-        // `Mmap::map` asks for. The map is private to `Memory` and is only ever read.
+        // SAFETY: the caller promises that the file is neither written nor truncated while the map
+        // lives, which is what `Mmap::map` asks for. The map is private to `Memory` and is only
+        // ever read.
         let map = unsafe { memmap2::Mmap::map(&file) };
         let map = map.map_err(|source| OpenError::Io { action: "map", path: path.to_owned(), source })?;
         Self::new(Memory::shared(map)?)

@@ -1,4 +1,4 @@
-//! The bytes of a file: owned and aligned, or where somebody else has them.
+//! The bytes of a file: owned and aligned, or held by the caller.
 
 use super::OpenError;
 use bytemuck::{Pod, Zeroable};
@@ -19,7 +19,7 @@ const RECORD_ALIGNMENT: usize = 8;
 pub(super) enum Memory {
     /// Read into memory.
     Owned(OwnedBytes),
-    /// Held by somebody else: a map, or what the caller has.
+    /// Held by a map or by the caller.
     Shared(Box<dyn AsRef<[u8]> + Send + Sync>),
 }
 
@@ -63,7 +63,7 @@ impl OwnedBytes {
         Ok(owned)
     }
 
-    /// Reads a file whose head is in order; a file that is none is refused before memory is taken.
+    /// Reads a file whose head is in order; another file is refused before memory is allocated.
     pub(super) fn read(path: &Path) -> Result<Self, OpenError> {
         let failed = |action| move |source| OpenError::Io { action, path: path.to_owned(), source };
         let mut file = open_regular(path)?;

@@ -1,9 +1,11 @@
-//! The `.neph` file: written once from a finished history, opened in constant time, verified on demand.
+//! The `.neph` file: written once from a finished history, opened in constant time, verified on
+//! demand.
 //!
-//! Writing chooses the levels, orders the vertices, lays out the interval tree and streams the sections, so that it needs
-//! 4 bytes per slot and 8 per vertex beside mesh and history, never the file itself. Opening looks at the first 16 KiB, and lays
-//! slots out that are in the compact form.
-//! What is read later is clamped where it is used: a damaged file that opens gives wrong levels, never slots out of range.
+//! Writing chooses the levels, orders the vertices, lays out the interval tree and streams the
+//! sections, so that it needs 4 bytes per slot and 8 per vertex beside mesh and history, never the
+//! file itself. Opening looks at the first 16 KiB, and lays slots out that are in the compact form.
+//! What is read later is clamped where it is used: a damaged file that opens gives wrong levels,
+//! never slots out of range.
 //!
 //! The layout of the file is in `formats/SPEC.md`.
 

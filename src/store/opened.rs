@@ -12,8 +12,8 @@ use nephrite_formats::neph::{
 use std::ops::Range;
 use std::path::Path;
 
-/// A file whose head is in order. Sections have the lengths that the header's counts give; what is in them has not been
-/// looked at, unless [`verify`](Self::verify) was called.
+/// A file whose head is in order. Sections have the lengths that the header's counts give; what is
+/// in them has not been looked at, unless [`verify`](Self::verify) was called.
 pub struct Opened {
     memory: Memory,
     directory: Directory,
@@ -39,7 +39,8 @@ pub struct AttributeView<'a> {
     pub scalar: ScalarType,
     /// Components per vertex, at least 1.
     pub n_components: u32,
-    /// Little-endian values, `n_vertices * stride_bytes()` bytes. They begin at a multiple of 64 in the file.
+    /// Little-endian values, `n_vertices * stride_bytes()` bytes. They begin at a multiple of 64 in
+    /// the file.
     pub bytes: &'a [u8],
 }
 
@@ -69,7 +70,8 @@ impl Opened {
         Self::new(Memory::Owned(OwnedBytes::copy_of(bytes)?))
     }
 
-    /// Checks the head of a file that lies in memory, and copies the file only if its records would not be aligned.
+    /// Checks the head of a file that lies in memory, and copies the file only if its records would
+    /// not be aligned.
     ///
     /// # Errors
     ///
@@ -78,7 +80,8 @@ impl Opened {
         Self::new(Memory::shared(owner)?)
     }
 
-    /// Touches the first 16 KiB and the attribute table, and the slots where they are in the compact form.
+    /// Touches the first 16 KiB and the attribute table, and the slots where they are in the
+    /// compact form.
     pub(super) fn new(memory: Memory) -> Result<Self, OpenError> {
         let bytes = memory.bytes();
         let head = &bytes[..bytes.len().min(MAX_HEAD_BYTES)];
@@ -109,8 +112,9 @@ impl Opened {
         self.memory.bytes()
     }
 
-    /// Operations from nothing to the input, for [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh); empty where
-    /// the file has none.
+    /// Operations from nothing to the input, for
+    /// [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh); empty where the file has
+    /// none.
     pub fn operations(&self) -> &[u8] {
         self.section(SectionKind::Operations)
     }
@@ -125,7 +129,8 @@ impl Opened {
         self.section(SectionKind::SimplexCounts)
     }
 
-    /// Vertices that die after each level, as the file states them: a prefix that holds the vertices of the level.
+    /// Vertices that die after each level, as the file states them: a prefix that holds the
+    /// vertices of the level.
     pub fn vertex_counts(&self) -> &[u32] {
         self.section(SectionKind::VertexCounts)
     }
@@ -135,8 +140,8 @@ impl Opened {
         self.section(SectionKind::VertexBirths)
     }
 
-    /// What the levels state beside their errors: each with its name, a number per level. As many as there are both names and
-    /// numbers for.
+    /// What the levels state beside their errors: each with its name, a number per level. As many
+    /// as there are both names and numbers for.
     pub fn deviations(&self) -> impl Iterator<Item = (&str, &[f64])> {
         let names: &[u8] = self.section(SectionKind::DeviationNames);
         let values: &[f64] = self.section(SectionKind::Deviations);
@@ -202,14 +207,15 @@ impl Opened {
     ///
     /// # Errors
     ///
-    /// Where the section is no JSON object of the known shape.
+    /// If the section is not a JSON object of the known shape.
     pub fn metadata(&self) -> Result<Metadata, serde_json::Error> {
         serde_json::from_slice(self.section(SectionKind::Metadata))
     }
 
     /// The records of a section; empty for an optional section that is not there.
     ///
-    /// The checked head guarantees range, alignment and a whole number of records, so neither fallback is ever taken.
+    /// The checked head guarantees range, alignment and a whole number of records, so neither
+    /// fallback is ever taken.
     fn section<T: Pod>(&self, kind: SectionKind) -> &[T] {
         let (offset, bytes) = self.directory.section(kind);
         let range = usize_range(offset..offset + bytes);

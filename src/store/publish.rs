@@ -9,15 +9,16 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 impl<const CORNERS: usize> Source<'_, CORNERS> {
-    /// Writes a file to `path`: to a temporary file beside it, which is synced, read back against its checksums, renamed into
-    /// place, and the folder synced. At any moment `path` holds what it held before or the whole new file; a map of the old
-    /// file stays valid. A link at `path` stays and its target is replaced. The next write of the same file removes what a
-    /// killed one has left.
+    /// Writes a file to `path`: to a temporary file beside it, which is synced, read back against
+    /// its checksums, renamed into place, and the folder synced. At any moment `path` holds what it
+    /// held before or the whole new file; a map of the old file stays valid. A link at `path` stays
+    /// and its target is replaced. The next write of the same file removes what a killed one has
+    /// left.
     ///
     /// # Errors
     ///
-    /// [`WriteError`]; the temporary file is removed and `path` is as it was. When only the last sync of the folder fails,
-    /// the new file is in place and may be lost by a crash of the system.
+    /// [`WriteError`]; the temporary file is removed and `path` is as it was. When only the last
+    /// sync of the folder fails, the new file is in place and may be lost by a crash of the system.
     pub(crate) fn write_in<S: Storage>(
         &self,
         storage: &S,
@@ -41,8 +42,9 @@ impl<const CORNERS: usize> Source<'_, CORNERS> {
 }
 
 impl<const CORNERS: usize> History<CORNERS> {
-    /// Writes a history that no build of this crate has made. The file states [`Method::Other`](crate::Method::Other) and
-    /// [`Bound::Unstated`](crate::Bound::Unstated): what its errors mean is up to whoever made them.
+    /// Writes a history that no build of this crate has made. The file states
+    /// [`Method::Other`](crate::Method::Other) and [`Bound::Unstated`](crate::Bound::Unstated): the
+    /// caller knows what its errors mean.
     ///
     /// The file appears at `path` whole or not at all, see [`Build::write`](crate::Build::write).
     ///
@@ -103,8 +105,8 @@ impl<const CORNERS: usize> History<CORNERS> {
     }
 }
 
-/// Reads a file just written: head and all checksums. That what was hashed has the right structure is the writer's promise
-/// and its tests'.
+/// Reads a file just written: head and all checksums. That what was hashed has the right structure
+/// is the writer's promise and its tests'.
 fn check_written(file: &mut (impl Read + Seek)) -> Result<(), VerifyError> {
     let file_bytes = file.seek(SeekFrom::End(0))?;
     file.seek(SeekFrom::Start(0))?;

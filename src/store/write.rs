@@ -1,4 +1,5 @@
-//! Writing: everything is laid out first, then streamed in one pass, and the head is filled in at the end.
+//! Writing: everything is laid out first, then streamed in one pass, and the head is filled in at
+//! the end.
 
 use super::arrange::VertexOrder;
 use super::attributes::AttributeSections;
@@ -22,15 +23,19 @@ use std::io::{Seek, Write};
 pub struct StoreOptions {
     /// Most levels; `None` for as many as make each level about 63/64 of the one before.
     pub levels: Option<u32>,
-    /// Levels per window, rounded up to a power of two: lifetimes are cut at the borders of windows, so that fewer vertices
-    /// are transformed when a level is drawn as runs. With the usual levels some 1.1 per triangle for 16 instead of 1.8, and
-    /// 0.9 for 8, in files 1.8 and 2.8 times as long. `None` for no windows.
+    /// Levels per window, rounded up to a power of two: lifetimes are cut at the borders of
+    /// windows, so that fewer vertices are transformed when a level is drawn as runs. With the
+    /// usual levels some 1.1 per triangle for 16 instead of 1.8, and 0.9 for 8, in files 1.8 and
+    /// 2.8 times as long. `None` for no windows.
     pub window_levels: Option<u32>,
-    /// Each simplex once, with narrow indices and stamps: a file of a third to two thirds the length, which a reader lays
-    /// out in memory when it opens it, whereas slots in the plain form are used where they lie.
+    /// Each simplex once, with narrow indices and stamps: a file of a third to two thirds the
+    /// length, which a reader lays out in memory when it opens it, whereas slots in the plain form
+    /// are used where they lie.
     pub is_compact: bool,
-    /// Whether the file also holds the operations of a progressive build, from which the mesh can be built up one by one while
-    /// they arrive, see [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh). Only a progressive build has them.
+    /// Whether the file also holds the operations of a progressive build, from which the mesh can
+    /// be built up one by one while they arrive, see
+    /// [`ProgressiveMesh`](crate::progressive_mesh::ProgressiveMesh). Only a progressive build has
+    /// them.
     pub operations: bool,
 }
 
@@ -49,13 +54,14 @@ pub(crate) struct Source<'a, const CORNERS: usize> {
 impl<const CORNERS: usize> Source<'_, CORNERS> {
     /// Writes a whole file to an empty stream.
     ///
-    /// Memory: 4 bytes per slot and 8 per vertex, beside mesh and history. The same input gives the same bytes on any number
-    /// of threads.
+    /// Memory: 4 bytes per slot and 8 per vertex, beside mesh and history. The same input gives the
+    /// same bytes on any number of threads.
     ///
     /// # Errors
     ///
-    /// [`WriteError`] when the history or an attribute does not fit the mesh, when the file would exceed a limit of the format,
-    /// when operations are wanted of a history that has none, or when the stream refuses.
+    /// [`WriteError`] when the history or an attribute does not fit the mesh, when the file would
+    /// exceed a limit of the format, when operations are wanted of a history that has none, or when
+    /// the stream refuses.
     pub(crate) fn write_to(
         &self,
         stream: &mut (impl Write + Seek),
@@ -130,8 +136,9 @@ fn lay_out<const CORNERS: usize>(
     Ok(layout)
 }
 
-/// Triangles that are ordered for the vertex cache at a time: a longer group, which lies along a curve by then, falls into stretches of
-/// so many. Where two of them meet some vertices are loaded twice, which in stretches of this length cannot be seen in the miss ratio.
+/// Triangles that are ordered for the vertex cache at a time: a longer group, which lies along a
+/// curve by then, falls into stretches of so many. Where two of them meet some vertices are loaded
+/// twice, which in stretches of this length cannot be seen in the miss ratio.
 const STRETCH_LEN: usize = 1 << 14;
 
 /// Orders triangles for the vertex cache; leaves other simplices as they are.

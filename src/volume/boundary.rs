@@ -3,11 +3,13 @@
 use crate::mesh::{UsedVertices, boundary_faces, fitting};
 use nephrite_formats::{MeshFault, TetrahedronMesh, TriangleMesh};
 
-/// The surface around a volume: the faces that belong to one tetrahedron only, seen counter-clockwise from outside where the
-/// tetrahedra have positive volume. Vertices keep their order and their values; those inside are left out.
+/// The surface around a volume: the faces that belong to one tetrahedron only, seen
+/// counter-clockwise from outside where the tetrahedra have positive volume. Vertices keep their
+/// order and their values; those inside are left out.
 ///
-/// Tetrahedra meet as they do in a build: vertices at one position are one point, whatever their values are, and a tetrahedron
-/// without four points or with the points of an earlier one does not count. O(n log n).
+/// Tetrahedra meet as they do in a build: vertices at one position are one point, whatever their
+/// values are, and a tetrahedron without four points or with the points of an earlier one does not
+/// count. O(n log n).
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Distances between surfaces: known answers, brute force, bad input, and the same numbers on any number of threads.
+//! Distances between surfaces: known answers, brute force, bad input, and the same numbers on any
+//! number of threads.
 
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 

@@ -48,7 +48,8 @@ impl Seal {
     }
 }
 
-/// A valid file with other contents of one section, which may be longer or shorter than before, or not there.
+/// A valid file with other contents of one section, which may be longer or shorter than before, or
+/// not there.
 pub fn with_section(bytes: &[u8], kind: SectionKind, content: &[u8]) -> Vec<u8> {
     let seal = Seal::of(bytes);
     let mut sections: Vec<(SectionKind, Vec<u8>)> = SectionKind::ALL

@@ -29,7 +29,7 @@ pub(crate) enum Failure {
     /// A mesh could not be read or written; names its file and the place in it.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// Something is wrong with a file that is no mesh, or with what was made of it.
+    /// Something is wrong with a file that is not a mesh, or with what was made of it.
     #[error("{}", path.display())]
     File {
         /// The file.
@@ -49,7 +49,7 @@ pub(crate) enum Failure {
     },
     /// A file that `build` wrote was given where a command needs a mesh.
     #[error(
-        "{0}: this file holds levels and is no mesh; extract a level first: nephrite extract {0} --level 0 -o MESH",
+        "{0}: this file holds levels and is not a mesh; extract a level first: nephrite extract {0} --level 0 -o MESH",
         path.display()
     )]
     IsBuilt {
@@ -135,7 +135,7 @@ impl Failure {
         Self::File { path: path.as_ref().to_owned(), source: Box::new(source) }
     }
 
-    /// A build that failed, or that somebody stopped.
+    /// A build that failed or was stopped.
     pub(crate) fn build(path: impl AsRef<Path>, source: BuildError) -> Self {
         match source {
             BuildError::Interrupted => Self::Interrupted,

@@ -12,7 +12,7 @@ use crate::meshes;
 use crate::report;
 use crate::streams::{Source, Target};
 
-/// Opens a file that `build` wrote. The file is read and not mapped, as anybody may change it
+/// Opens a file that `build` wrote. The file is read and not mapped, as others may change it
 /// meanwhile.
 ///
 /// # Errors

@@ -1,9 +1,9 @@
 //! Small files that go wrong elsewhere come out right, or the program says what it left out.
 //!
-//! The files are in a folder beside the repository, with a list that says what is right for each. The table
-//! below has every row of the list and where its promise is tested: here if it is about the program, else
-//! in the test that is named. Without the folder nothing is run; the promises of this file are then tested
-//! on generated meshes in `usage`, `database`, `volumes` and `view`.
+//! The files are in a folder beside the repository, with a list that says what is right for each.
+//! The table below has every row of the list and where its promise is tested: here if it is about
+//! the program, else in the test that is named. Without the folder nothing is run; the promises of
+//! this file are then tested on generated meshes in `usage`, `database`, `volumes` and `view`.
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a panic is how a test fails")]
 
 mod support;

@@ -129,7 +129,7 @@ fn folders_of_folders_are_parts_too() {
     for name in ["top", "axle", "wheel"] {
         assert!(workplace.path(format!("parts/db/{name}.neph")).exists(), "{name}");
     }
-    // The database lies among the parts and is none of them.
+    // The database lies among the parts and is not one of them.
     let text = workplace.done("build parts --output-dir parts/db");
     assert!(text.contains("3 parts, 3 of them unchanged") && text.contains("notes.txt"), "{text}");
     let failure = workplace.failure("build empty --output-dir none");

@@ -64,7 +64,7 @@ impl Drop for Viewer {
     }
 }
 
-/// A folder with `ball.neph`, and its bytes; nothing where npm was missing when the program was
+/// A folder with `ball.neph`, and its bytes; `None` if npm was missing when the program was
 /// built.
 fn place_with_file() -> Option<(Workplace, Vec<u8>)> {
     let place = Workplace::new();
@@ -150,7 +150,7 @@ fn nothing_else_is_served() {
         let (head, _) = viewer.answer(&[&format!("{method} /files/ball.neph HTTP/1.1"), &host]);
         assert!(head.starts_with("http/1.1 405"), "{head}");
     }
-    // A page of somebody else's whose name was made to point here.
+    // A page of another site whose name was made to point here.
     let (head, _) = viewer.answer(&["GET /files/ball.neph HTTP/1.1", "Host: evil.example"]);
     assert!(head.starts_with("http/1.1 421"), "{head}");
     let (head, _) = viewer.answer(&["nonsense"]);

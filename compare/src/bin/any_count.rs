@@ -97,7 +97,7 @@ fn ask_for_counts(stream: &mut ProgressiveMesh, n_in: usize, n_counts: usize, fa
         if distinct.len() != found
             || stream.triangles().as_flattened().iter().any(|&v| v as usize >= n_vertices)
         {
-            fail(format!("the mesh of {n} triangles is none"));
+            fail(format!("the mesh of {n} triangles is not a surface"));
         }
     }
 }

@@ -56,7 +56,7 @@ const ALIVE: u8 = u8::MAX - 1;
 
 /// Added to every bound, as a multiple of the extent of mesh and origin. The rounding errors of a
 /// displacement, a few dozen operations in `f64` on exact `f32`, are a millionth of it; the rest
-/// covers whoever checks the bound in `f32`, as MeshLab's Metro does in part: it finds up to 4e-7
+/// covers a check of the bound in `f32`, as MeshLab's Metro does in part: it finds up to 4e-7
 /// of the diagonal between a mesh and itself.
 const SLACK: f64 = 4.0 * f32::EPSILON as f64;
 

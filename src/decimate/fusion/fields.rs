@@ -253,7 +253,7 @@ fn component(values: &[f64], n_values: usize, place: usize) -> impl Iterator<Ite
     values.iter().skip(place).step_by(n_values).copied()
 }
 
-/// Least and largest finite value of a component; the wrong way round where there is none.
+/// Least and largest finite value of a component; infinity and minus infinity if there is none.
 fn range(values: &[f64], n_values: usize, place: usize) -> [f64; 2] {
     let finite = component(values, n_values, place).filter(|value| value.is_finite());
     finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])

@@ -107,7 +107,7 @@ struct Ratio {
 }
 
 impl Ratio {
-    /// The larger one; this one where the other is no number.
+    /// The larger one; this one if the other is NaN.
     fn max(self, other: Self) -> Self {
         if other.over * self.under > self.over * other.under { other } else { self }
     }

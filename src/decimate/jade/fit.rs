@@ -88,7 +88,8 @@ pub(crate) fn fit(fitting: Fitting<'_>, buffers: &mut FitBuffers, filling: &mut 
     // A star with a thin triangle may be replaced by one as thin.
     let worst_aspect = WORST_ASPECT.min(worst_star_aspect(hole));
     // It is rare that a new edge may not be made, and takes long to find out. So only the edges of
-    // the best filling are looked up; one that may not is forbidden and the next best filling found. At most as many times as there are inner edges.
+    // the best filling are looked up; one that may not is forbidden and the next best filling
+    // found. At most as many times as there are inner edges.
     let mut taken: Vec<[u8; 2]> = vec![];
     loop {
         let score = |triangle: [u8; 3], cutoff: f64| {

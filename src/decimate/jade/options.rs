@@ -46,8 +46,8 @@ pub struct JadeOptions {
     /// The first limit on the local error is the largest one divided by this (section 5). From 1 to
     /// [`MAX_K`](Self::MAX_K); `None` for 256, or for 240.5 where vertices move.
     pub k: Option<f64>,
-    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`](Self::MIN_C1) to 16; `None` for
-    /// 1.3, or for the tenth root of 10 where vertices move.
+    /// Factor from one iteration's limit to the next (section 5). From [`MIN_C1`](Self::MIN_C1) to
+    /// 16; `None` for 1.3, or for the tenth root of 10 where vertices move.
     pub c1: Option<f64>,
     /// Limit on the global error as a multiple of that on the local error (section 5). From 1 to
     /// 16.
@@ -55,8 +55,8 @@ pub struct JadeOptions {
 }
 
 impl JadeOptions {
-    /// Largest [`k`](Self::k). Larger ones would start at limits far below what coordinates can tell apart, and need iterations
-    /// without number.
+    /// Largest [`k`](Self::k). Larger ones would start at limits far below what coordinates can
+    /// tell apart, and need iterations without number.
     pub const MAX_K: f64 = 1e12;
 
     /// Smallest [`c1`](Self::c1). Smaller ones would raise the limits by next to nothing.

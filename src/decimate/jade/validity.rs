@@ -47,7 +47,8 @@ fn is_well_shaped(hole: &Hole, filling: &Filling) -> bool {
     (0..filling.triangles.len()).all(|i| aspect(&filling.triangle(hole, i)) >= limit)
 }
 
-/// No new edge is one that the mesh has already, which would join the surface to itself, or joins two locked vertices.
+/// No new edge is one that the mesh has already, which would join the surface to itself, or joins
+/// two locked vertices.
 pub(crate) fn keeps_topology(surface: &Surface, hole: &Hole, filling: &Filling) -> bool {
     match (hole.closed, hole.n_ring()) {
         (true, 3) => !surface.has_triangle([hole.ring[0], hole.ring[1], hole.ring[2]]),

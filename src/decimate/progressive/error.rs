@@ -40,7 +40,7 @@ pub(crate) fn vanishes(ring: &Ring) -> bool {
 }
 
 /// Bound on the distance between the star and the fan that the collapse into neighbour `into`
-/// leaves, both ways, or nothing where that is not below `limit`. O(valence^2); O(1) for more than
+/// leaves, both ways, or `None` if that is not below `limit`. O(valence^2); O(1) for more than
 /// [`MAX_MAPPED_VALENCE`] triangles, where the bound is the length of the edge.
 ///
 /// A map takes the star onto the fan and keeps the ring. The vertex goes to the nearest point of

@@ -122,7 +122,7 @@ impl Shadow {
     }
 
     /// Largest height between the star, a height field, and the valid fan from neighbour `into`;
-    /// nothing where that is not below `limit`. O(valence^2), and less where the limit is passed
+    /// `None` if that is not below `limit`. O(valence^2), and less where the limit is passed
     /// early.
     pub(crate) fn height_over_fan(&self, into: usize, limit: f64) -> Option<f64> {
         let n = self.points.len();

@@ -184,7 +184,7 @@ export class Viewing {
     }
   }
 
-  /** Whether levels flow now; whoever sweeps them waits for that. */
+  /** Whether levels flow now; a sweep waits for that. */
   get isFlowing(): boolean {
     return this.flow !== null || this.isPreparingFlow;
   }

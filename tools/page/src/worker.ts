@@ -5,7 +5,7 @@ import { MeshBVH } from "three-mesh-bvh";
 import { slice } from "./scene/tetrahedra.ts";
 import type { Job, Landed, LandJob, Normals, NormalsJob } from "./work.ts";
 
-/** Vertices that land before the worker looks whether somebody wants something else. */
+/** Vertices that land before the worker checks for another request. */
 const N_AT_A_TIME = 4096;
 
 let vertices = new Float32Array(0);

@@ -60,7 +60,7 @@ impl Server {
     pub(crate) fn url(&self) -> String {
         let ip = self.address.ip();
         let host = match ip {
-            // The address that means all addresses is none that a browser can open.
+            // A browser cannot open the address that means all addresses.
             ip if ip.is_unspecified() => "localhost".to_owned(),
             IpAddr::V4(ip) => ip.to_string(),
             IpAddr::V6(ip) => format!("[{ip}]"),

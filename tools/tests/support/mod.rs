@@ -97,7 +97,7 @@ impl Workplace {
 
 /// The number under a key.
 pub(crate) fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("{key} of {value} is no number"))
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} of {value} is not a number"))
 }
 
 /// The whole number under a key.

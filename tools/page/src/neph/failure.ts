@@ -1,4 +1,4 @@
-// What can go wrong between a file and its picture, in words for whoever looks at the page.
+// What can go wrong between a file and its picture, in words for the user of the page.
 
 /** Something that stops a file from being shown: `message` is the headline, `advice` what to know or do. */
 export class Failure extends Error {

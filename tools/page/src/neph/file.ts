@@ -132,7 +132,7 @@ export class NephFile {
     this.positions.set(positions, start * 3);
   }
 
-  /** A copy of the indices of a level, for whoever needs them in one piece. */
+  /** A copy of the indices of a level, for uses that need them in one piece. */
   cut(level: number): Uint32Array<ArrayBuffer> {
     const { nCorners } = this.head;
     const indices = new Uint32Array(this.levels.counts[level] * nCorners);

@@ -53,7 +53,7 @@ export interface Head {
 /** Bytes that always hold the head. */
 export const MAX_HEAD_BYTES = 16384;
 
-/** Reads the head of a file of `fileBytes`, if its length is known. Throws a `Failure` for what is none. */
+/** Reads the head of a file of `fileBytes`, if its length is known. Throws a `Failure` for any other file. */
 export function parseHead(bytes: Uint8Array<ArrayBuffer>, fileBytes: number | null): Head {
   if (MAGIC.some((byte, at) => bytes[at] !== byte)) throw notNeph();
   if (bytes.length < HEADER_BYTES) throw cutShort(bytes.length, HEADER_BYTES);

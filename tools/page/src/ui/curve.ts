@@ -64,7 +64,7 @@ export class Curve {
   private readonly svg = document.createElementNS(SVG, "svg");
   private readonly marker = document.createElementNS(SVG, "g");
 
-  /** `onPick` hears of the level that somebody points at. */
+  /** `onPick` is told the level under the pointer. */
   constructor(
     private readonly place: HTMLElement,
     onPick: (level: number) => void,
